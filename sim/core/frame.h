@@ -1,0 +1,49 @@
+// A Frame is a read-only picture of the state at one moment: what renderers, exporters and windows see of a run.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/vec.h"
+#include "sim/scene/scene.h"
+
+namespace curlew {
+
+// A scalar by which particles can be coloured.
+struct ColourField {
+  std::string_view name;   // "speed"
+  std::string_view label;  // "speed"
+  std::string_view unit;   // "m/s"
+};
+
+// All of them; a vector field is coloured by its length.
+std::span<const ColourField> colour_fields();
+
+// A body as it is drawn.
+struct FrameBody {
+  std::string name;
+  TriangleMesh surface;  // in world coordinates
+};
+
+// What does not change while a run goes on.
+struct FrameGeometry {
+  int dimension = 3;
+  double particle_radius = 0;
+  Domain domain;
+  std::vector<FrameBody> bodies;
+};
+
+struct Frame {
+  double time = 0;         // s
+  std::int64_t step = 0;
+  std::vector<Vec3> position;  // m
+  std::vector<float> value;    // of the colour field, one a particle; empty for plain water colour
+  ColourField colour;
+  std::shared_ptr<const FrameGeometry> geometry;
+};
+
+}  // namespace curlew

@@ -1,0 +1,196 @@
+#include "sim/core/passes.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/core/error.h"
+#include "sim/core/parallel.h"
+#include "sim/sph/density.h"
+#include "sim/sph/motion.h"
+#include "sim/sph/pressure.h"
+
+namespace curlew {
+namespace {
+
+using enum FieldId;
+
+bool always(const World&) { return true; }
+bool has_boundary(const World& w) { return w.has_boundary(); }
+bool solves_divergence(const World& w) { return w.parameters().pressure.max_divergence_iterations > 0; }
+bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
+bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
+
+constexpr FieldSet particle_state = FieldSet::kept();
+constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction};
+constexpr FieldSet solver_space{packed, acceleration, source, iterate};
+constexpr FieldSet solver_input =
+    FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space;
+
+constexpr Pass passes[] = {
+    // At the positions that the last step left, with the step that it took:
+    {.name = "divergence_solve", .reads = solver_input | FieldSet{divergence_stiffness},
+     .writes = FieldSet{velocity, divergence_stiffness} | solver_space,
+     .wanted = solves_divergence, .run = divergence_solve, .changes_velocity = true},
+    // Forces and the new step:
+    {.name = "gravity", .reads = {}, .writes = {acceleration}, .wanted = always, .run = gravity},
+    {.name = "viscosity", .reads = {position, velocity, density, acceleration, boundary_friction},
+     .writes = {acceleration}, .wanted = is_viscous, .run = viscosity},
+    {.name = "time_step", .reads = {velocity, acceleration}, .writes = {}, .wanted = always,
+     .run = choose_time_step, .essential = true},
+    {.name = "apply_forces", .reads = {velocity, acceleration}, .writes = {velocity}, .wanted = always,
+     .run = apply_forces, .changes_velocity = true},
+    {.name = "xsph", .reads = {position, velocity, density}, .writes = {velocity, acceleration},
+     .wanted = uses_xsph, .run = xsph, .changes_velocity = true},
+    // Constant density at the positions to come:
+    {.name = "density_solve", .reads = solver_input | FieldSet{density_stiffness},
+     .writes = FieldSet{velocity, density_stiffness} | solver_space,
+     .wanted = always, .run = density_solve, .changes_velocity = true},
+    {.name = "advect", .reads = {position, velocity}, .writes = {position}, .wanted = always, .run = advect},
+    // The new positions:
+    {.name = "sort", .reads = particle_state, .writes = particle_state, .wanted = always, .run = sort_particles},
+    {.name = "neighbours", .reads = {position}, .writes = {}, .wanted = always, .run = find_neighbours,
+     .essential = true},
+    {.name = "boundary", .reads = {position},
+     .writes = boundary_fields | FieldSet{neighbour_number}, .wanted = has_boundary, .run = boundary_sums},
+    {.name = "density", .reads = {position, boundary_gradient, neighbour_number},
+     .writes = {density, diagonal, neighbour_number}, .wanted = always, .run = compute_density},
+    // Only for those who ask:
+    {.name = "pressure", .reads = {density, density_stiffness, divergence_stiffness}, .writes = {pressure},
+     .wanted = always, .run = total_pressure},
+    {.name = "vorticity", .reads = {position, velocity, density}, .writes = {vorticity}, .wanted = always,
+     .run = compute_vorticity},
+};
+
+bool moves_or_forces(const Pass& pass) { return pass.changes_velocity || pass.writes.has(acceleration); }
+
+// Fields that a pass touches but that this world has no use for.
+FieldSet unused_fields(const World& world) {
+  FieldSet unused;
+  if (!world.has_boundary()) unused = unused | boundary_fields;
+  if (!is_viscous(world) || !(world.walls.any_no_slip() || world.bodies.any_no_slip())) {
+    unused = unused | FieldSet{boundary_friction};
+  }
+  return unused;
+}
+
+// The sentence of a DivergedError: which pass, which particle, why, and what to change.
+[[noreturn]] void report_divergence(const World& world, const Pass& pass, std::size_t i, double speed) {
+  const double limit = world.parameters().time.max_displacement * world.scene.spacing() / world.dt;
+  char what[400];
+  if (std::isfinite(speed)) {
+    std::snprintf(what, sizeof what, "reached %.3g m/s, more than the %.3g m/s that time.max_displacement allows in a "
+                  "step of %.3g s", speed, limit, world.dt);
+  } else {
+    std::snprintf(what, sizeof what, "has a velocity that is not finite");
+  }
+  const char* advice = world.parameters().time.fixed_step > 0 ? "use a smaller time.fixed_step"
+                       : pass.name == "viscosity"             ? "lower time.viscosity_factor"
+                                                              : "lower time.cfl or raise pressure.max_iterations";
+  const std::uint32_t particle = world.fields.id[i];
+  throw DivergedError("the simulation diverged at step " + std::to_string(world.step + 1) + ", time " +
+                          number_text(world.time) + " s: after pass " + std::string(pass.name) + " particle " +
+                          std::to_string(particle) + " " + what + "; " + advice,
+                      std::string(pass.name), particle);
+}
+
+void guard(const World& world, const Pass& pass) {
+  const Array<Vec3>& v = world.fields.velocity;
+  const Largest fastest = particle_max(world.count, [&](std::size_t i) { return double{dot(v[i], v[i])}; });
+  const double speed = std::sqrt(fastest.value);
+  const double limit = world.parameters().time.max_displacement * world.scene.spacing() / world.dt;
+  if (!(speed <= limit) && world.count > 0) report_divergence(world, pass, fastest.index, speed);
+}
+
+void save_backup(World& world) {
+  Backup& b = world.backup;
+  b.velocity.resize(world.count);
+  b.density_stiffness.resize(world.count);
+  b.divergence_stiffness.resize(world.count);
+  parallel_for(world.count, [&](std::size_t i) {
+    b.velocity[i] = world.fields.velocity[i];
+    b.density_stiffness[i] = world.fields.density_stiffness[i];
+    b.divergence_stiffness[i] = world.fields.divergence_stiffness[i];
+  });
+}
+
+// Positions move last, so the velocities and the warm start are all that a step that failed has changed.
+void restore_backup(World& world) {
+  world.fields.velocity = world.backup.velocity;
+  world.fields.density_stiffness = world.backup.density_stiffness;
+  world.fields.divergence_stiffness = world.backup.divergence_stiffness;
+}
+
+void run_passes(World& world, const std::vector<const Pass*>& list, PassObserver* observer) {
+  using Clock = std::chrono::steady_clock;
+  for (const Pass* pass : list) {
+    const auto begin = Clock::now();
+    pass->run(world);
+    if (pass->changes_velocity) guard(world, *pass);
+    const std::chrono::duration<double, std::milli> taken = Clock::now() - begin;
+    if (observer != nullptr) observer->after(*pass, world, taken.count());
+  }
+}
+
+}  // namespace
+
+std::span<const Pass> pass_table() { return passes; }
+
+Plan make_plan(const World& world, FieldSet demanded) {
+  const FieldSet unused = unused_fields(world);
+  FieldSet needed = FieldSet::kept() | demanded;
+  std::vector<bool> chosen(std::size(passes));
+  // A step ends with passes that the next one's beginning reads, so go round until nothing is added.
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t p = std::size(passes); p-- > 0;) {
+      const Pass& pass = passes[p];
+      if (chosen[p] || !pass.wanted(world) || !(pass.essential || pass.writes.meets(needed))) continue;
+      chosen[p] = grown = true;
+      needed = needed | pass.reads.without(unused);
+    }
+  }
+  Plan plan;
+  for (std::size_t p = 0; p < std::size(passes); ++p) {
+    if (!chosen[p]) continue;
+    const Pass& pass = passes[p];
+    plan.step.push_back(&pass);
+    plan.fields = plan.fields | pass.reads.without(unused) | pass.writes.without(unused);
+    if (!moves_or_forces(pass) && pass.name != "time_step" && pass.name != "advect") plan.prepare.push_back(&pass);
+  }
+  return plan;
+}
+
+void allocate(World& world, const Plan& plan) {
+  for_each_field(world.fields, [&](const FieldRow& row, auto& array) {
+    const bool present = row.kind == FieldKind::kept || plan.fields.has(row.id);
+    if (present) {
+      array.resize(world.count);
+    } else {
+      array = {};
+    }
+  });
+}
+
+void prepare(World& world, const Plan& plan) {
+  allocate(world, plan);
+  run_passes(world, plan.prepare, nullptr);
+  if (world.dt <= 0) world.dt = initial_time_step(world);
+}
+
+void step(World& world, const Plan& plan, PassObserver* observer) {
+  const double last_dt = world.dt;
+  world.report.limit_hits = 0;
+  save_backup(world);
+  try {
+    run_passes(world, plan.step, observer);
+  } catch (const DivergedError&) {
+    restore_backup(world);
+    world.dt = last_dt;
+    throw;
+  }
+  world.time += world.dt;
+  ++world.step;
+}
+
+}  // namespace curlew

@@ -1,0 +1,39 @@
+#include "sim/sph/kernel.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace curlew {
+
+Kernel::Kernel(double h, int dimension) : h_(h), dimension_(dimension) {
+  using std::numbers::pi;
+  sigma_ = dimension == 3 ? 1 / (pi * h * h * h) : 10 / (7 * pi * h * h);
+  inv_h_ = static_cast<float>(1 / h);
+  quarter_sigma_ = static_cast<float>(sigma_ / 4);
+  slope_factor_ = static_cast<float>(-0.75 * sigma_ / h);
+  tiny_ = static_cast<float>(1e-12 * h * h);
+  softening_ = static_cast<float>(0.01 * h * h);
+}
+
+double Kernel::value(double r) const {
+  const double q = r / h_, u = std::max(2 - q, 0.0), v = std::max(1 - q, 0.0);
+  return sigma_ / 4 * (u * u * u - 4 * v * v * v);
+}
+
+double Kernel::derivative(double r) const {
+  const double q = r / h_, u = std::max(2 - q, 0.0), v = std::max(1 - q, 0.0);
+  return -0.75 * sigma_ / h_ * (u * u - 4 * v * v);
+}
+
+double Kernel::lattice_sum(double d) const {
+  const int reach = static_cast<int>(support() / d) + 1, reach_z = dimension_ == 3 ? reach : 0;
+  double total = 0;
+  for (int x = -reach; x <= reach; ++x) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int z = -reach_z; z <= reach_z; ++z) total += value(d * std::sqrt(x * x + y * y + z * z));
+    }
+  }
+  return total;
+}
+
+}  // namespace curlew

@@ -1,0 +1,161 @@
+#include "sim/sph/motion.h"
+
+#include <cmath>
+
+#include "sim/core/parallel.h"
+
+namespace curlew {
+namespace {
+
+void count_sweep(World& world) {
+  ++world.work.sweeps;
+  world.work.pair_visits += world.neighbours.pairs();
+}
+
+Vec3 gravity_of(const World& world) { return to_float(world.scene.gravity); }
+
+// Steps that speed, acceleration and viscosity allow.
+double allowed_step(const World& world, double max_speed, double max_acceleration) {
+  const TimeParameters& t = world.parameters().time;
+  const double d = world.scene.spacing(), nu = world.parameters().viscosity.nu;
+  double dt = t.max_step;
+  if (max_speed > 0) dt = std::min(dt, t.cfl * d / max_speed);
+  if (max_acceleration > 0) dt = std::min(dt, t.acceleration_factor * std::sqrt(d / max_acceleration));
+  if (nu > 0) dt = std::min(dt, t.viscosity_factor * d * d / nu);
+  return dt;
+}
+
+double largest_length(std::size_t n, const Array<Vec3>& field) {
+  return std::sqrt(std::max(0.0, particle_max(n, [&](std::size_t i) { return double{dot(field[i], field[i])}; }).value));
+}
+
+}  // namespace
+
+void gravity(World& world) {
+  const Vec3 g = gravity_of(world);
+  parallel_for(world.count, [&](std::size_t i) { world.fields.acceleration[i] = g; });
+}
+
+void viscosity(World& world) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  const ViscosityParameters& p = world.parameters().viscosity;
+  const bool vector_form = p.form == ViscosityParameters::form_t::vector;
+  const bool friction = !f.boundary_friction.empty();
+  const float nu = static_cast<float>(p.nu), softening = world.kernel.softening();
+  const float factor = 2 * nu * world.mass * (vector_form ? static_cast<float>(world.scene.dimension + 2) : 1.0f);
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      const Vec3 v = f.velocity[i];
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p8) {
+        const Vec8 other = gather(f.velocity.data(), p8.j);
+        const f8 vx = v.x - other.x, vy = v.y - other.y, vz = v.z - other.z;
+        // One density for both partners keeps the pair's forces opposite and equal.
+        const f8 volume = 2.0f / (f.density[i] + gather(f.density.data(), p8.j));
+        const f8 weight = volume * world.kernel.slope(p8.r2) / (p8.r2 + softening);
+        if (vector_form) {
+          const f8 along = weight * (vx * p8.x + vy * p8.y + vz * p8.z);
+          x += along * p8.x;
+          y += along * p8.y;
+          z += along * p8.z;
+        } else {
+          const f8 strength = weight * p8.r2;
+          x += strength * vx;
+          y += strength * vy;
+          z += strength * vz;
+        }
+      });
+      f.acceleration[i] += factor * Vec3{sum(x), sum(y), sum(z)};
+      if (friction) {
+        const Vec3 pull = f.boundary_friction[i];
+        f.acceleration[i] += nu * (pull - pull.w * v);
+      }
+    });
+  });
+}
+
+double initial_time_step(const World& world) {
+  const TimeParameters& t = world.parameters().time;
+  if (t.fixed_step > 0) return t.fixed_step;
+  return allowed_step(world, largest_length(world.count, world.fields.velocity), length(world.scene.gravity));
+}
+
+void choose_time_step(World& world) {
+  world.report.max_speed = largest_length(world.count, world.fields.velocity);
+  world.report.max_acceleration = largest_length(world.count, world.fields.acceleration);
+  const TimeParameters& t = world.parameters().time;
+  const double grown = t.growth * world.dt;
+  world.dt = t.fixed_step > 0
+                 ? t.fixed_step
+                 : std::min(grown, allowed_step(world, world.report.max_speed, world.report.max_acceleration));
+}
+
+void apply_forces(World& world) {
+  const auto dt = static_cast<float>(world.dt);
+  parallel_for(world.count, [&](std::size_t i) { world.fields.velocity[i] += dt * world.fields.acceleration[i]; });
+}
+
+void xsph(World& world) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  const MicropolarParameters& p = world.parameters().micropolar;
+  const bool rate = p.xsph_form == MicropolarParameters::xsph_form_t::rate;
+  const double gamma = rate ? 1 - std::pow(1 - p.gamma, world.dt / p.xsph_reference_step) : p.gamma;
+  const float factor = 2 * static_cast<float>(gamma) * world.mass;
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      const Vec3 v = f.velocity[i];
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p8) {
+        const Vec8 other = gather(f.velocity.data(), p8.j);
+        const f8 weight = world.kernel.value(p8.r2) / (f.density[i] + gather(f.density.data(), p8.j));
+        x += weight * (other.x - v.x);
+        y += weight * (other.y - v.y);
+        z += weight * (other.z - v.z);
+      });
+      f.acceleration[i] = factor * Vec3{sum(x), sum(y), sum(z)};
+    });
+  });
+  parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += f.acceleration[i]; });
+}
+
+void advect(World& world) {
+  Fields& f = world.fields;
+  const auto dt = static_cast<float>(world.dt);
+  const Domain& domain = world.scene.domain;
+  const CellShape& cells = world.cells;
+  const double held = particle_sum(world.count, [&](std::size_t i) {
+    Vec3& x = f.position[i];
+    x += dt * f.velocity[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (cells.periodic_cells[axis] == 0) continue;
+      const float low = static_cast<float>(domain.min[axis]), period = cells.period[axis];
+      x[axis] -= period * std::floor((x[axis] - low) / period);
+    }
+    return world.walls.hold(x, f.velocity[i]) ? 1.0 : 0.0;
+  });
+  world.report.wall_contacts = static_cast<std::int64_t>(held);
+}
+
+void compute_vorticity(World& world) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      const Vec3 v = f.velocity[i];
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p8) {
+        const Vec8 other = gather(f.velocity.data(), p8.j);
+        const f8 vx = v.x - other.x, vy = v.y - other.y, vz = v.z - other.z;
+        const f8 slope = world.kernel.slope(p8.r2);
+        x += slope * (vy * p8.z - vz * p8.y);
+        y += slope * (vz * p8.x - vx * p8.z);
+        z += slope * (vx * p8.y - vy * p8.x);
+      });
+      f.vorticity[i] = (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
+    });
+  });
+}
+
+}  // namespace curlew

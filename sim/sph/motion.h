@@ -1,0 +1,35 @@
+// Forces that are not pressure, the time step, and the moves.
+#pragma once
+
+#include "sim/core/world.h"
+
+namespace curlew {
+
+// Starts the field acceleration: a = g.
+void gravity(World& world);
+
+// a += nu lap v, explicit, with the pull of no-slip boundaries.
+//   scalar form  2 sum V_j v_ij (x_ij . grad W_ij) / (|x_ij|^2 + 0.01 h^2)                  (Brookshaw 1985)
+//   vector form  2 (D+2) sum V_j (v_ij . x_ij) / (|x_ij|^2 + 0.01 h^2) grad W_ij            (Monaghan 1992; Liu Eq. 4)
+void viscosity(World& world);
+
+// dt = min( cfl d / |v|max, f sqrt(d / |a|max), f d^2 / nu, growth times the last, max_step ), or the fixed step.
+void choose_time_step(World& world);
+
+// v += dt a.
+void apply_forces(World& world);
+
+// XSPH: v_i += gamma sum_j (m / mean(rho_i, rho_j)) (v_j - v_i) W_ij, with symmetric weights, which keep momentum
+// (Schechter & Bridson 2012; Bender et al. 2018). As a rate, gamma becomes 1 - (1 - gamma)^(dt / reference step).
+void xsph(World& world);
+
+// x += dt v (symplectic Euler), walls held, periodic axes wrapped.
+void advect(World& world);
+
+// The step that a world at rest would like, for its first divergence solve.
+double initial_time_step(const World& world);
+
+// Curl of the velocity in the difference form, sum V_j grad W_ij x (v_i - v_j) ... (Liu Eq. 6), into vorticity, 1/s.
+void compute_vorticity(World& world);
+
+}  // namespace curlew

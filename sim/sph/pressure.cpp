@@ -1,0 +1,207 @@
+#include "sim/sph/pressure.h"
+
+#include <cmath>
+
+#include "sim/core/parallel.h"
+
+namespace curlew {
+namespace {
+
+// A source that no pressure answers: the particle takes no part in the solve.
+constexpr float no_part = -1e30f;
+
+// Of the Jacobi move; one half converges on any arrangement that was met (Bender & Koschier 2017 use the same).
+constexpr float jacobi_relaxation = 0.5f;
+
+struct Solve {
+  Array<float>& stiffness;
+  double tolerance;  // mean compression, as a fraction
+  int max_iterations;
+};
+
+void count_sweep(World& world) {
+  world.work.pair_visits += world.neighbours.pairs();
+  ++world.work.sweeps;
+}
+
+// a(k) for the iterate in packed.w, into the field acceleration.
+void accelerate(World& world) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  const bool boundary = world.has_boundary();
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      const float k = f.packed[i].w;
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.packed.data(), i, images, [&](const Pairs& p) {
+        const f8 push = (k + p.w) * world.kernel.slope(p.r2);
+        x += push * p.x;
+        y += push * p.y;
+        z += push * p.z;
+      });
+      Vec3 a = -world.mass * Vec3{sum(x), sum(y), sum(z)};
+      if (boundary) a += -k * f.boundary_gradient[i];
+      f.acceleration[i] = a;
+    });
+  });
+}
+
+// D_i(v): rate of change of density, kg/(m^3 s).
+template <class Images>
+float density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images, bool boundary) {
+  const Vec3 own = v[i];
+  f8 rate{};
+  for_pairs(world.neighbours, world.fields.position.data(), i, images, [&](const Pairs& p) {
+    const Vec8 other = gather(v.data(), p.j);
+    rate += world.kernel.slope(p.r2) * ((own.x - other.x) * p.x + (own.y - other.y) * p.y + (own.z - other.z) * p.z);
+  });
+  const float fluid = world.mass * sum(rate);
+  return boundary ? fluid + dot(own, world.fields.boundary_gradient[i]) : fluid;
+}
+
+struct Progress {
+  double error = 0;      // sum of positive residuals
+  double momentum = 0;   // residual along the last move: negative when momentum leads uphill
+  void operator+=(const Progress& other) {
+    error += other.error;
+    momentum += other.momentum;
+  }
+};
+
+// One sweep: the residual at the iterate in packed.w, and the relaxed Jacobi move from there. Leaves the iterate in
+// `stiffness` and the moved value in packed.w.
+Progress relax(World& world, Array<float>& stiffness) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  const bool boundary = world.has_boundary();
+  const bool two_sided = world.parameters().pressure.two_sided;
+  const float full = 0.9f * world.rest_density();
+  Progress total;
+  with_images(world.cells, [&](auto images) {
+    total = ordered_sum<Progress>(world.count, [&](std::size_t begin, std::size_t end) {
+      Progress part;
+      for (std::size_t i = begin; i < end; ++i) {
+        const float k = f.packed[i].w, source = f.source[i];
+        stiffness[i] = k;
+        if (source == no_part) continue;
+        const float residual = source + density_rate(world, f.acceleration, i, images, boundary);
+        const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
+        const float moved = std::max(lowest, k + relaxation * residual / f.diagonal[i]);
+        part.error += std::max(0.0f, residual);
+        part.momentum += double{residual} * (moved - f.iterate[i]);
+        f.packed[i].w = moved;
+      }
+      return part;
+    });
+  });
+  return total;
+}
+
+// Adds Nesterov's momentum to the moved values in packed.w and remembers them.
+void extrapolate(World& world, float momentum) {
+  Fields& f = world.fields;
+  const bool two_sided = world.parameters().pressure.two_sided;
+  const float full = 0.9f * world.rest_density();
+  parallel_for(world.count, [&](std::size_t i) {
+    const float moved = f.packed[i].w;
+    const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
+    f.packed[i].w = std::max(lowest, moved + momentum * (moved - f.iterate[i]));
+    f.iterate[i] = moved;
+  });
+}
+
+// Finds k for the given source; leaves it in solve.stiffness and adds dt a(k) to the velocity. Returns the number of
+// iterations and the mean compression that is left.
+struct Outcome {
+  int iterations;
+  double error;
+};
+
+Outcome solve_pressure(World& world, const Solve& solve) {
+  Fields& f = world.fields;
+  const PressureParameters& p = world.parameters().pressure;
+  const bool accelerated = p.solver == PressureParameters::solver_t::accelerated;
+  const double scale = world.dt * world.dt / (static_cast<double>(world.count) * world.rest_density());
+  parallel_for(world.count, [&](std::size_t i) {
+    const float k = p.warm_start && f.source[i] != no_part ? solve.stiffness[i] : 0.0f;
+    f.packed[i] = f.position[i];
+    f.packed[i].w = k;
+    f.iterate[i] = k;
+  });
+  Outcome outcome{0, 0};
+  double t = 1;
+  do {
+    accelerate(world);
+    const Progress progress = relax(world, solve.stiffness);
+    outcome.error = progress.error * scale;
+    ++outcome.iterations;
+    // O'Donoghue & Candes (2015): forget the momentum where it leads uphill.
+    if (progress.momentum < 0) t = 1;
+    const double next = (1 + std::sqrt(1 + 4 * t * t)) / 2;
+    extrapolate(world, accelerated ? static_cast<float>((t - 1) / next) : 0.0f);
+    t = next;
+  } while (outcome.iterations < solve.max_iterations &&
+           (outcome.error > solve.tolerance || outcome.iterations < p.min_iterations));
+  const auto dt = static_cast<float>(world.dt);
+  parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += dt * f.acceleration[i]; });
+  if (outcome.error > solve.tolerance) ++world.report.limit_hits;
+  return outcome;
+}
+
+// The density against which compression is measured: rest density or, in a filled domain, the mean prediction.
+double reference_density(const World& world) {
+  if (!world.parameters().pressure.two_sided) return world.parameters().sph.rest_density;
+  return particle_sum(world.count, [&](std::size_t i) { return double{world.fields.source[i]}; }) /
+         static_cast<double>(world.count);
+}
+
+}  // namespace
+
+void divergence_solve(World& world) {
+  Fields& f = world.fields;
+  const PressureParameters& p = world.parameters().pressure;
+  const bool boundary = world.has_boundary();
+  const auto inverse_dt = static_cast<float>(1 / world.dt);
+  count_sweep(world);
+  double skipped = 0;
+  with_images(world.cells, [&](auto images) {
+    skipped = particle_sum(world.count, [&](std::size_t i) {
+      const bool spray = f.neighbour_number[i] < world.least_neighbours();
+      f.source[i] = spray ? no_part : inverse_dt * density_rate(world, f.velocity, i, images, boundary);
+      return spray ? 1.0 : 0.0;
+    });
+  });
+  world.report.divergence_skipped = skipped / static_cast<double>(world.count);
+  const auto outcome =
+      solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance, p.max_divergence_iterations});
+  world.report.divergence_iterations = outcome.iterations;
+  world.report.divergence_error = outcome.error;
+}
+
+void density_solve(World& world) {
+  Fields& f = world.fields;
+  const PressureParameters& p = world.parameters().pressure;
+  const bool boundary = world.has_boundary();
+  const auto dt = static_cast<float>(world.dt);
+  count_sweep(world);
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      f.source[i] = f.density[i] + dt * density_rate(world, f.velocity, i, images, boundary);
+    });
+  });
+  const auto reference = static_cast<float>(reference_density(world));
+  const float scale = 1 / (dt * dt);
+  parallel_for(world.count, [&](std::size_t i) { f.source[i] = scale * (f.source[i] - reference); });
+  const auto outcome = solve_pressure(world, {f.density_stiffness, p.density_tolerance, p.max_iterations});
+  world.report.pressure_iterations = outcome.iterations;
+  world.report.density_error_avg = outcome.error;
+}
+
+void total_pressure(World& world) {
+  Fields& f = world.fields;
+  parallel_for(world.count, [&](std::size_t i) {
+    f.pressure[i] = f.density[i] * f.density[i] * (f.density_stiffness[i] + f.divergence_stiffness[i]);
+  });
+}
+
+}  // namespace curlew

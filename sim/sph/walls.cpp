@@ -1,0 +1,146 @@
+#include "sim/sph/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace curlew {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Integral of f(r) over a k-flat at distance s from the origin, out to r = end; f is smooth but for a kink at end/2.
+template <class F>
+double flat_integral(int k, double s, double end, F&& f) {
+  if (k == 0) return f(s);
+  const double reach = std::sqrt(std::max(0.0, end * end - s * s));
+  constexpr int steps = 800;
+  double total = 0;
+  for (int n = 0; n < steps; ++n) {
+    const double t = (n + 0.5) * reach / steps;
+    total += f(std::sqrt(s * s + t * t)) * (k == 1 ? 2.0 : 2 * pi * t);
+  }
+  return total * reach / steps;
+}
+
+}  // namespace
+
+Walls::Walls(const Domain& domain, int dimension, const Kernel& kernel, double spacing, double mass)
+    : dimension_(dimension), spacing_(static_cast<float>(spacing)), support_(static_cast<float>(kernel.support())) {
+  for (int axis = 0; axis < dimension; ++axis) {
+    if (domain.periodic[axis]) continue;
+    for (int high = 0; high < 2; ++high) {
+      const Wall& wall = domain.walls[2 * axis + high];
+      if (wall.kind == WallKind::open) continue;
+      const double plane = high ? domain.max[axis] : domain.min[axis];
+      faces_.push_back({axis, high ? -1.0f : 1.0f, static_cast<float>(plane), wall.kind == WallKind::no_slip,
+                        to_float(wall.velocity)});
+    }
+  }
+  const double end = kernel.support();
+  for (int k = 0; k < dimension; ++k) {
+    const double scale = mass / std::pow(spacing, k);
+    const auto value = [&](double s) {
+      return scale * flat_integral(k, s, end, [&](double r) { return kernel.value(r); });
+    };
+    const auto slope = [&](double s) {
+      return scale * flat_integral(k, s, end, [&](double r) { return r > 0 ? kernel.derivative(r) * s / r : 0.0; });
+    };
+    flat_[k].fill(end, value, slope);
+  }
+  const auto friction = [&](double s) {
+    return spacing * flat_integral(dimension - 1, s, end, [&](double r) {
+             return 2 * r * -kernel.derivative(r) / (r * r + kernel.softening());
+           });
+  };
+  friction_.fill(end, friction, [&](double s) {
+    const double e = 1e-4 * end;
+    return (friction(std::min(end, s + e)) - friction(std::max(0.0, s - e))) / (std::min(end, s + e) - std::max(0.0, s - e));
+  });
+}
+
+bool Walls::any_no_slip() const {
+  return std::any_of(faces_.begin(), faces_.end(), [](const Face& face) { return face.no_slip; });
+}
+
+float Walls::lattice_points(float a) const {
+  const float r = support_, height = r - a;
+  if (dimension_ == 3) {
+    return std::numbers::pi_v<float> * height * height * (2 * r + a) / (3 * spacing_ * spacing_ * spacing_);
+  }
+  return (r * r * std::acos(a / r) - a * std::sqrt(r * r - a * a)) / (spacing_ * spacing_);
+}
+
+void Walls::add_face(WallSum& total, const Near& near) const {
+  const Face& face = *near.face;
+  total.neighbours += lattice_points(near.distance);
+  for (float s = near.distance + 0.5f * spacing_; s < support_; s += spacing_) {
+    const auto [value, slope] = flat_[dimension_ - 1].at(s);
+    total.gradient.w += value;
+    total.gradient[face.axis] += face.side * slope;
+    if (!face.no_slip) continue;
+    // The mirror factor 1 + s_b/a, bounded as Morris et al. do where a particle touches the plane.
+    const float behind = s - near.distance;
+    const float pull = friction_.at(s).value * (1 + std::min(1.5f, behind / std::max(near.distance, 1e-6f * spacing_)));
+    total.friction += pull * face.velocity;
+    total.friction.w += pull;
+  }
+}
+
+// Layers shared by `number` faces: one I_(D-number) for each combination of layers, with alternating sign.
+void Walls::add_overlap(WallSum& total, const Near* const* near, int number) const {
+  const float sign = number == 2 ? -1.0f : 1.0f;
+  const int layers = static_cast<int>(std::ceil(support_ / spacing_));
+  const int combinations = number == 2 ? layers * layers : layers * layers * layers;
+  for (int combination = 0; combination < combinations; ++combination) {
+    float depth[3] = {}, squared = 0;
+    for (int f = 0, rest = combination; f < number; ++f, rest /= layers) {
+      depth[f] = near[f]->distance + (static_cast<float>(rest % layers) + 0.5f) * spacing_;
+      squared += depth[f] * depth[f];
+    }
+    if (squared >= support_ * support_) continue;
+    const float s = std::sqrt(squared);
+    const auto [value, slope] = flat_[dimension_ - number].at(s);
+    total.gradient.w += sign * value;
+    for (int f = 0; f < number; ++f) {
+      total.gradient[near[f]->face->axis] += sign * near[f]->face->side * slope * depth[f] / s;
+    }
+  }
+}
+
+WallSum Walls::sum(Vec3 position) const {
+  WallSum total;
+  Near near[most_near];
+  int number = 0;
+  for (const Face& face : faces_) {
+    const float distance = std::max(0.0f, face.side * (position[face.axis] - face.plane));
+    if (distance + 0.5f * spacing_ < support_) near[number++] = {&face, distance};
+  }
+  for (int a = 0; a < number; ++a) {
+    add_face(total, near[a]);
+    for (int b = a + 1; b < number; ++b) {
+      if (near[a].face->axis == near[b].face->axis) continue;
+      const Near* pair[] = {&near[a], &near[b]};
+      add_overlap(total, pair, 2);
+      for (int c = b + 1; c < number && dimension_ == 3; ++c) {
+        if (near[c].face->axis == near[a].face->axis || near[c].face->axis == near[b].face->axis) continue;
+        const Near* triple[] = {&near[a], &near[b], &near[c]};
+        add_overlap(total, triple, 3);
+      }
+    }
+  }
+  return total;
+}
+
+bool Walls::hold(Vec3& position, Vec3& velocity) const {
+  bool held = false;
+  for (const Face& face : faces_) {
+    if (face.side * (position[face.axis] - face.plane) >= 0) continue;
+    position[face.axis] = face.plane;
+    if (face.side * velocity[face.axis] < 0) velocity[face.axis] = 0;
+    held = true;
+  }
+  return held;
+}
+
+}  // namespace curlew

@@ -1,0 +1,100 @@
+// The walls of the domain, as exact integrals instead of samples: no wall has a list, a search or a bump.
+//
+// Behind a wall the fluid's lattice goes on: layers of particles d apart, the first half a spacing behind the plane.
+// Smearing each layer evenly over its plane gives the density that the wall adds at distance a,
+//   lambda(a) = m / d^(D-1)  sum_n  I_(D-1)(a + (n + 1/2) d),      I_k(s) = integral of W over a k-flat at distance s,
+// so fluid on a lattice that touches the wall has rest density to 0.02 %. Where faces meet, the layers shared by two
+// (an edge) or three (a corner) are counted once: subtract the I_(D-2), add the I_(D-3).
+// No-slip: the layers move so that velocity vanishes at the plane, v_b = v_w - (s_b/a)(v - v_w) (Morris et al. 1997).
+#pragma once
+
+#include <vector>
+
+#include "sim/scene/scene.h"
+#include "sim/sph/kernel.h"
+
+namespace curlew {
+
+// A function of distance on [0, end), zero beyond: values and slopes on a fine grid, cubic in between, so that the
+// slope that it returns is the derivative of the value that it returns.
+class DistanceTable {
+ public:
+  template <class Value, class Slope>
+  void fill(double end, Value&& value, Slope&& slope) {
+    end_ = static_cast<float>(end);
+    const double step = end / intervals;
+    inverse_step_ = static_cast<float>(1 / step);
+    nodes_.clear();
+    for (int k = 0; k <= intervals; ++k) {
+      nodes_.push_back({static_cast<float>(value(k * step)), static_cast<float>(slope(k * step) * step)});
+    }
+  }
+
+  struct Sample {
+    float value, slope;
+  };
+  Sample at(float distance) const {
+    if (!(distance < end_)) return {0, 0};
+    const float scaled = distance * inverse_step_;
+    const auto k = static_cast<std::size_t>(scaled);
+    const float t = scaled - static_cast<float>(k);
+    const auto [f0, g0] = nodes_[k];
+    const auto [f1, g1] = nodes_[k + 1];
+    const float c = 3 * (f1 - f0) - 2 * g0 - g1, e = 2 * (f0 - f1) + g0 + g1;
+    return {f0 + t * (g0 + t * (c + t * e)), (g0 + t * (2 * c + 3 * e * t)) * inverse_step_};
+  }
+
+ private:
+  static constexpr int intervals = 512;
+  float end_ = 0, inverse_step_ = 0;
+  std::vector<Sample> nodes_;
+};
+
+// What the walls do to a particle at one place; densities and friction as in the fields boundary_gradient and
+// boundary_friction.
+struct WallSum {
+  Vec3 gradient;  // w: density
+  Vec3 friction;
+  float neighbours = 0;  // lattice points that would lie in the support behind the walls
+};
+
+class Walls {
+ public:
+  Walls() = default;
+  // mass in kg, spacing in m.
+  Walls(const Domain& domain, int dimension, const Kernel& kernel, double spacing, double mass);
+
+  bool any() const { return !faces_.empty(); }
+  bool any_no_slip() const;
+  WallSum sum(Vec3 position) const;
+
+  // A droplet too thin to feel the wall's pressure may reach the plane: it is held there and loses the velocity into
+  // the wall. Returns whether it was.
+  bool hold(Vec3& position, Vec3& velocity) const;
+
+ private:
+  struct Face {
+    int axis;
+    float side;   // +1: fluid lies on the side of larger coordinates
+    float plane;  // m
+    bool no_slip;
+    Vec3 velocity;
+  };
+  struct Near {
+    const Face* face;
+    float distance;
+  };
+  static constexpr int most_near = 6;
+
+  void add_face(WallSum& total, const Near& near) const;
+  void add_overlap(WallSum& total, const Near* const* near, int number) const;
+  float lattice_points(float distance) const;
+
+  std::vector<Face> faces_;
+  DistanceTable flat_[3];    // I_k, multiplied by m / d^k
+  DistanceTable friction_;   // integral of 2 r |W'| / (r^2 + 0.01 h^2) over a (D-1)-flat, multiplied by d
+  int dimension_ = 3;
+  float spacing_ = 0, support_ = 0;
+};
+
+}  // namespace curlew
