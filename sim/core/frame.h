@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/core/fields.h"
 #include "sim/core/vec.h"
 #include "sim/scene/scene.h"
 
@@ -45,5 +46,15 @@ struct Frame {
   ColourField colour;
   std::shared_ptr<const FrameGeometry> geometry;
 };
+
+struct World;
+
+// The fields that must be filled to colour by `name`; throws InputError for a name that is not in colour_fields().
+FieldSet colour_demand(std::string_view name);
+
+std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene);
+
+// Copies what a frame shows out of the world.
+Frame make_frame(const World& world, std::string_view colour_name, std::shared_ptr<const FrameGeometry> geometry);
 
 }  // namespace curlew

@@ -18,6 +18,14 @@ using enum FieldId;
 bool always(const World&) { return true; }
 bool has_boundary(const World& w) { return w.has_boundary(); }
 bool solves_divergence(const World& w) { return w.parameters().pressure.max_divergence_iterations > 0; }
+bool has_open_face(const World& w) {
+  const Domain& domain = w.scene.domain;
+  for (int axis = 0; axis < w.scene.dimension; ++axis) {
+    const bool open = domain.walls[2 * axis].kind == WallKind::open || domain.walls[2 * axis + 1].kind == WallKind::open;
+    if (open && !domain.periodic[axis]) return true;
+  }
+  return false;
+}
 bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
@@ -47,6 +55,8 @@ constexpr Pass passes[] = {
      .writes = FieldSet{velocity, density_stiffness} | solver_space,
      .wanted = always, .run = density_solve, .changes_velocity = true},
     {.name = "advect", .reads = {position, velocity}, .writes = {position}, .wanted = always, .run = advect},
+    {.name = "outflow", .reads = particle_state, .writes = particle_state, .wanted = has_open_face,
+     .run = remove_escaped},
     // The new positions:
     {.name = "sort", .reads = particle_state, .writes = particle_state, .wanted = always, .run = sort_particles},
     {.name = "neighbours", .reads = {position}, .writes = {}, .wanted = always, .run = find_neighbours,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/scene/resolution.h"
 #include "sim/scene/sampling.h"
 
 namespace curlew {
@@ -22,7 +23,7 @@ World make_empty_world(const Scene& scene, std::uint64_t seed) {
 }
 
 World make_world(const Scene& scene, std::uint64_t seed) {
-  check_memory(scene);
+  check_resolution(scene);
   World world = make_empty_world(scene, seed);
   const ParticleSample sample = sample_fluid(scene);
   world.count = sample.position.size();

@@ -138,6 +138,28 @@ void advect(World& world) {
   world.report.wall_contacts = static_cast<std::int64_t>(held);
 }
 
+void remove_escaped(World& world) {
+  Fields& f = world.fields;
+  const Domain& domain = world.scene.domain;
+  const double reach = world.kernel.support();
+  std::vector<std::uint32_t> stay;
+  for (std::uint32_t i = 0; i < world.count; ++i) {
+    bool inside = true;
+    for (int axis = 0; axis < world.scene.dimension; ++axis) {
+      const double x = double{f.position[i][axis]};
+      inside = inside && x > domain.min[axis] - reach && x < domain.max[axis] + reach;
+    }
+    if (inside) stay.push_back(i);
+  }
+  if (stay.size() == world.count) return;
+  world.count = stay.size();
+  for_each_field(f, [&](const FieldRow& row, auto& array) {
+    if (array.empty()) return;
+    for (std::size_t k = 0; k < stay.size() && row.kind == FieldKind::kept; ++k) array[k] = array[stay[k]];
+    array.resize(stay.size());
+  });
+}
+
 void compute_vorticity(World& world) {
   count_sweep(world);
   Fields& f = world.fields;

@@ -26,10 +26,13 @@ void xsph(World& world);
 // x += dt v (symplectic Euler), walls held, periodic axes wrapped.
 void advect(World& world);
 
+// Takes particles away that left the domain through an open face and are out of the others' reach.
+void remove_escaped(World& world);
+
 // The step that a world at rest would like, for its first divergence solve.
 double initial_time_step(const World& world);
 
-// Curl of the velocity in the difference form, sum V_j grad W_ij x (v_i - v_j) ... (Liu Eq. 6), into vorticity, 1/s.
+// Curl of the velocity in the difference form, sum V_j (v_i - v_j) x grad W_ij (Liu et al. 2020, Eq. 6), into vorticity, 1/s.
 void compute_vorticity(World& world);
 
 }  // namespace curlew

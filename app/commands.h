@@ -1,0 +1,22 @@
+// The commands of the program. Each returns its exit code and throws what the user did wrong as InputError.
+#pragma once
+
+#include <string>
+
+#include "app/options.h"
+
+namespace curlew {
+
+int run_command(const RunOptions& options);
+int check_command(const RunOptions& options);
+int scenes_command();
+enum class ParameterFormat { text, json, markdown, schema };
+int params_command(ParameterFormat format);
+int doctor_command();
+int bench_command(const BenchOptions& options);
+// The window.
+int gui_command(const std::string& scene);
+
+std::string version_text();
+
+}  // namespace curlew

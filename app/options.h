@@ -1,0 +1,43 @@
+// What a command line asks for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace curlew {
+
+struct RunOptions {
+  std::string scene;  // file or bundled name; empty with --resume
+  std::vector<std::string> settings;  // key=value
+  std::optional<double> radius, particles;
+  std::optional<double> time;          // s
+  std::optional<std::int64_t> steps;
+  double fps = 60;
+  int threads = 0;  // 0: all cores (the user cannot give 0)
+  std::uint64_t seed = 0;
+  std::string out;  // empty: out/NAME
+  bool stats_each_frame = false, full_columns = false;
+  bool frames = false;
+  int width = 1280, height = 720;
+  std::string video;
+  std::string particles_out;  // vtk, ply, bgeo or empty
+  double checkpoint_every = 0;  // s of simulated time, 0: none
+  std::string resume;
+  bool quiet = false, overwrite = false;
+  std::int64_t hash_passes = 0;  // every so many steps, 0: never
+  std::string command;           // the whole line, for run.json
+};
+
+struct BenchOptions {
+  std::string name;
+  std::vector<std::string> cases;     // particle numbers
+  std::vector<std::string> settings;
+  int threads = 0;
+  double time_share = 1;              // of each case's time, for a quick look
+  std::optional<double> at_least;     // millions of particle-steps a second: a gate
+};
+
+}  // namespace curlew

@@ -1,0 +1,66 @@
+#include "app/output.h"
+
+#include <cstdio>
+
+#include "sim/io/particle_files.h"
+
+namespace curlew {
+namespace {
+
+std::string numbered(const std::string& folder, const char* kind, std::int64_t frame, const std::string& extension) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06lld.", static_cast<long long>(frame));
+  return folder + "/" + kind + "/" + name + extension;
+}
+
+}  // namespace
+
+FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const std::string& folder,
+                         std::optional<std::array<double, 2>> range)
+    : folder_(folder), format_(options.particles_out), colour_(scene.look.colour_by), png_(options.frames),
+      range_(range) {
+  view_.camera = scene.camera;
+  view_.look = scene.look;
+  if (scene.look.range) range_ = scene.look.range;
+  if (!options.frames && options.video.empty()) return;
+  geometry_ = make_geometry(scene);
+  if (!options.video.empty()) {
+    video_ = std::make_unique<VideoWriter>(options.video, options.width, options.height, options.fps);
+  }
+  context_ = std::make_unique<OffscreenContext>();
+  renderer_ = std::make_unique<Renderer>(options.width, options.height);
+  if (png_) frames_ = std::make_unique<FrameWriter>();
+}
+
+FieldSet FrameOutput::demand() const { return renderer_ ? colour_demand(colour_) : FieldSet{}; }
+
+void FrameOutput::write(const World& world, std::int64_t frame) {
+  if (!format_.empty()) write_particles(world, frame);
+  if (!renderer_) return;
+  const Frame picture = make_frame(world, colour_, geometry_);
+  if (!view_.look.range && !picture.value.empty()) {
+    const auto own = curlew::colour_range(picture);
+    range_ = range_ ? united(*range_, own) : own;
+  }
+  ViewSettings view = view_;
+  view.look.range = range_;
+  Image image = renderer_->draw(picture, view);
+  if (video_) video_->write(image);
+  if (frames_) frames_->write(numbered(folder_, "frames", frame, "png"), std::move(image));
+}
+
+void FrameOutput::write_particles(const World& world, std::int64_t frame) const {
+  const Fields& f = world.fields;
+  const ParticleExport particles{world.time, world.step, f.id, f.position, f.velocity, f.density, {}};
+  const std::string file = numbered(folder_, "particles", frame, format_);
+  if (format_ == "vtk") write_vtk(file, particles);
+  if (format_ == "ply") write_ply(file, particles);
+  if (format_ == "bgeo") write_bgeo(file, particles);
+}
+
+void FrameOutput::finish() {
+  if (frames_) frames_->finish();
+  if (video_) video_->finish();
+}
+
+}  // namespace curlew

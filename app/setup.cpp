@@ -1,0 +1,36 @@
+#include "app/setup.h"
+
+#include "app/assets.h"
+#include "sim/core/error.h"
+#include "sim/scene/bundled.h"
+#include "sim/scene/reader.h"
+#include "sim/scene/resolution.h"
+
+namespace curlew {
+
+void apply_settings(Parameters& parameters, const std::vector<std::string>& settings) {
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw InputError("--set is \"" + setting + "\", expected key=value such as viscosity.nu=0.01");
+    }
+    try {
+      set_parameter(parameters, parameter_row(setting.substr(0, equals)), setting.substr(equals + 1), "--set");
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      throw InputError(message.starts_with("--set") ? message : "--set: " + message);
+    }
+  }
+}
+
+Scene scene_from(const RunOptions& options) {
+  if (options.scene.empty()) throw InputError("no scene was given; `curlew scenes` lists the bundled ones");
+  if (options.radius && options.particles) throw InputError("--radius and --particles both set the resolution; give one");
+  Scene scene = read_scene(find_scene(options.scene, assets_folder()));
+  apply_settings(scene.parameters, options.settings);
+  if (options.radius) scene.particle_radius = *options.radius;
+  if (options.particles) scene = with_particles(scene, *options.particles);
+  return scene;
+}
+
+}  // namespace curlew

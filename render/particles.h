@@ -1,0 +1,32 @@
+// The particles on the graphics side: their arrays, their spheres in the picture and their points in the shadow map.
+#pragma once
+
+#include <array>
+
+#include "render/gl.h"
+#include "render/theme.h"
+#include "sim/core/frame.h"
+
+namespace curlew {
+
+class ParticleLayer {
+ public:
+  ParticleLayer();
+
+  void upload(const Frame& frame);
+
+  // Colours by frame.value through the map, or the theme's plain water where there are no values.
+  void set_colours(std::string_view map, const Colour& water, std::array<double, 2> range, bool coloured);
+
+  void draw();                       // into the bound G-buffer
+  void draw_shadow(GLuint program);  // into the bound shadow map, with a program that takes positions
+
+ private:
+  gl::Program program_;
+  gl::VertexArray quads_, points_;
+  gl::Buffer positions_, values_, indices_;
+  gl::Texture colours_;
+  std::size_t count_ = 0, indexed_ = 0;
+};
+
+}  // namespace curlew

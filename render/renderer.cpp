@@ -1,0 +1,182 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "render/camera.h"
+#include "render/colour_range.h"
+#include "render/context.h"
+#include "render/gl.h"
+#include "render/legend.h"
+#include "render/overlay.h"
+#include "render/particles.h"
+#include "render/programs.h"
+#include "render/shading.h"
+#include "render/solids.h"
+#include "render/theme.h"
+#include "render/view_block.h"
+#include "render/walls.h"
+#include "sim/core/error.h"
+
+namespace curlew {
+namespace {
+
+void check_size(int width, int height, int supersample) {
+  GLint largest = 0;
+  const int most = std::max(supersample, 2);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (width < 1 || height < 1 || supersample < 0 || width > largest / most || height > largest / most)
+    throw InputError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                     " pixels cannot be drawn: each side must lie between 1 and " + std::to_string(largest / most));
+}
+
+int supersampling(int wanted, int width, int height) {
+  if (wanted > 0) return wanted;
+  return static_cast<long long>(width) * height <= 640LL * 360 ? 2 : 1;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  int width, height, wanted_supersample, supersample;
+  Shading shading;
+  ParticleLayer particles;
+  SolidLayer solids;
+  WallLayer walls;
+  Overlay overlay;
+  gl::Program shadow_program;
+  gl::Buffer block;
+  View view;
+
+  State(int w, int h, int n)
+      : width(w),
+        height(h),
+        wanted_supersample(n),
+        supersample(supersampling(n, w, h)),
+        shading(w, h, supersample),
+        shadow_program(gl::link_program("shadow.vert", "shadow.frag")) {}
+
+  void draw_shadow(const LightMap& light, double radius, bool flat);
+  void draw_scene(const Look& look, bool flat);
+  void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range);
+};
+
+void Renderer::State::draw_shadow(const LightMap& light, double radius, bool flat) {
+  shading.begin_shadow();
+  if (flat) return;
+  const double pixels = 2 * radius / light.metres * Shading::shadow_size;
+  gl::set(shadow_program, "point_size", static_cast<float>(std::max(1.0, pixels)));
+  particles.draw_shadow(shadow_program);
+  solids.draw_shadow(shadow_program);
+}
+
+void Renderer::State::draw_scene(const Look& look, bool flat) {
+  shading.begin_scene();
+  particles.draw();
+  solids.draw_bodies();
+  if (look.show_floor || flat) solids.draw_floor();
+}
+
+void Renderer::State::draw_legend(const Frame& frame, const Look& look, const Theme& theme,
+                                  std::array<double, 2> range) {
+  overlay.begin(width, height, theme);
+  if (!frame.value.empty()) add_colour_scale(overlay, width, height, frame.colour, look.colour_map, range);
+  add_time(overlay, width, height, frame.time);
+  overlay.end();
+}
+
+Renderer::Renderer(int width, int height, int supersample) {
+  check_size(width, height, supersample);
+  state_ = std::make_unique<State>(width, height, supersample);
+}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+int Renderer::width() const { return state_->width; }
+int Renderer::height() const { return state_->height; }
+unsigned Renderer::texture() const { return state_->shading.picture(); }
+
+void Renderer::resize(int width, int height) {
+  if (width == state_->width && height == state_->height) return;
+  check_size(width, height, state_->wanted_supersample);
+  state_->supersample = supersampling(state_->wanted_supersample, width, height);
+  state_->shading = Shading(width, height, state_->supersample);
+  state_->width = width;
+  state_->height = height;
+}
+
+void Renderer::render(const Frame& frame, const ViewSettings& settings) {
+  State& s = *state_;
+  const FrameGeometry& geometry = *frame.geometry;
+  const Look& look = settings.look;
+  const Theme& theme = theme_named(look.background);
+  const bool flat = geometry.dimension == 2, coloured = !frame.value.empty();
+  const double radius = settings.particle_scale.value_or(flat ? 1.4 : 1.15) * geometry.particle_radius;
+  const std::array<double, 2> range = look.range ? *look.range : colour_range(frame);
+
+  s.view = view_of(settings.camera, geometry.domain, geometry.dimension, static_cast<double>(s.width) / s.height,
+                   look.show_legend ? legend_margin(s.width, s.height) : 0.0);
+  const LightMap light = light_map_of(geometry.domain, key_direction(s.view, geometry.dimension));
+  const ViewBlock block = view_block(s.view, theme, geometry, light, radius, s.shading.drawn_width(),
+                                     s.shading.drawn_height(), s.supersample);
+  s.block.upload(&block, sizeof block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.block.name());
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+
+  s.particles.upload(frame);
+  s.particles.set_colours(look.colour_map, theme.water, range, coloured);
+  s.solids.upload(frame.geometry);
+  s.draw_shadow(light, radius, flat);
+  s.draw_scene(look, flat);
+  s.shading.light(light.metres);
+  if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading.depth());
+  if (look.show_legend) s.draw_legend(frame, look, theme, range);
+
+  glDisable(GL_BLEND);
+  glDisable(GL_PROGRAM_POINT_SIZE);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  check_graphics();
+}
+
+Image Renderer::read() const {
+  const State& s = *state_;
+  Image upside_down(s.width, s.height), image(s.width, s.height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.shading.picture_target());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, s.width, s.height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
+  const std::size_t row = 4 * static_cast<std::size_t>(s.width);
+  for (int y = 0; y < s.height; ++y) std::copy_n(upside_down.at(0, s.height - 1 - y), row, image.at(0, y));
+  return image;
+}
+
+Image Renderer::draw(const Frame& frame, const ViewSettings& settings) {
+  render(frame, settings);
+  return read();
+}
+
+std::optional<Vec3d> Renderer::point_at(int x, int y) const {
+  const State& s = *state_;
+  if (x < 0 || y < 0 || x >= s.width || y >= s.height) return std::nullopt;
+  const int n = s.supersample, px = n * x + n / 2, py = n * (s.height - 1 - y) + n / 2;
+  float depth = 0;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.shading.scene_target());
+  glReadPixels(px, py, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+  if (depth == 0) return std::nullopt;
+
+  const View& v = s.view;
+  const double d = static_cast<double>(depth);
+  const double distance =
+      v.orthographic ? v.far - d * (v.far - v.near) : 1 / (1 / v.far + d * (v.far - v.near) / (v.near * v.far));
+  const double scale = v.half_height * (v.orthographic ? 1 : distance);
+  const double across = 2 * (px + 0.5) / s.shading.drawn_width() - 1,
+               up = 2 * (py + 0.5) / s.shading.drawn_height() - 1;
+  return v.position + distance * v.forward + across * v.aspect * scale * v.right + up * scale * v.up;
+}
+
+}  // namespace curlew

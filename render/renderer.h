@@ -1,0 +1,51 @@
+// Draws a Frame: particles as lit spheres, bodies, walls and floor, with legend and time. Needs a current OpenGL 4.5
+// context (OffscreenContext or a window's) and leaves no state behind but the bound framebuffer.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/image.h"
+#include "sim/core/frame.h"
+#include "sim/scene/scene.h"
+
+namespace curlew {
+
+struct ViewSettings {
+  Camera camera;
+  Look look;  // without look.range, colours span what this one frame holds
+  // Drawn radius over particle radius. Otherwise 1.15, and 1.4 in 2D, so that a little overlap closes the gaps.
+  std::optional<double> particle_scale;
+};
+
+class Renderer {
+ public:
+  // supersample n draws n x n pixels for each one of the picture, at n^2 the cost: 2 for title pictures. 0 chooses 1,
+  // or 2 for pictures so small (up to 640x360) that it costs no more than a usual one.
+  Renderer(int width, int height, int supersample = 0);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  // Throws InputError for a look or a camera that makes no sense, GraphicsError where OpenGL fails.
+  Image draw(const Frame& frame, const ViewSettings& settings);
+
+  // The same in two steps: a window shows texture() and need not read anything back.
+  void render(const Frame& frame, const ViewSettings& settings);
+  Image read() const;
+  unsigned texture() const;  // RGBA8, sRGB values, first row at the bottom
+
+  void resize(int width, int height);
+  int width() const;
+  int height() const;
+
+  // The point of the last picture's scene under a pixel (of the picture, top left is (0, 0)), or nothing where only
+  // background is. For picking, and for tests.
+  std::optional<Vec3d> point_at(int x, int y) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace curlew

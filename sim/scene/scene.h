@@ -1,0 +1,120 @@
+// A scene as read from its file: everything in SI units, nothing yet laid out as particles.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/core/params.h"
+#include "sim/core/vec.h"
+
+namespace curlew {
+
+// A triangle mesh, for bodies, for mesh-shaped fluid and for drawing. Triangles index vertices, three each.
+struct TriangleMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// Shapes. In 2D a box is a rectangle, a sphere a disc, a cylinder a rounded-off strip of width 2 radius between its
+// ends, a plane a half-plane. Angles in degrees.
+struct Box {
+  Vec3d min, max;
+};
+struct Sphere {
+  Vec3d centre;
+  double radius = 0;
+};
+struct Cylinder {
+  Vec3d from, to;  // centres of the end faces
+  double radius = 0;
+};
+struct Plane {
+  Vec3d point, normal;  // solid (or fluid) lies opposite the normal
+};
+struct Mesh {
+  std::filesystem::path file;  // .obj, .ply or .stl; as written in the scene, relative to the scene file
+  double scale = 1;
+  Vec3d translation;
+  Vec3d rotation;  // degrees about x, then y, then z
+  std::shared_ptr<const TriangleMesh> mesh;  // loaded, scaled, rotated, moved
+};
+struct Heightfield {
+  std::filesystem::path file;  // CSV grid of heights (rows along z, columns along x), or empty
+  std::string formula;         // or a formula of x and z, such as "0.2 + 0.05*cos(2*pi*x)"
+  Vec3d min, max;              // solid (or fluid) fills min.y up to the height, inside the box
+  std::vector<double> heights;  // sampled, row by row along z
+  int columns = 0, rows = 0;
+};
+using Shape = std::variant<Box, Sphere, Cylinder, Plane, Mesh, Heightfield>;
+
+// What fluid does at a boundary.
+enum class WallKind { slip, no_slip, open };
+
+struct Wall {
+  WallKind kind = WallKind::slip;
+  Vec3d velocity;  // tangential, m/s; pulls the fluid where the wall is no-slip
+};
+
+// The box in which the scene happens. Faces in the order x-, x+, y-, y+, z-, z+; in 2D the last two do not exist.
+struct Domain {
+  Vec3d min, max;
+  std::array<bool, 3> periodic{};
+  std::array<Wall, 6> walls;
+};
+
+// An initial velocity: constant, or a named field.
+struct InitialVelocity {
+  enum class Field { constant, taylor_green, rotation, shear_wave };
+  Field field = Field::constant;
+  Vec3d value;      // constant: the velocity
+  double speed = 1;  // taylor_green, shear_wave: amplitude, m/s, with one period across the domain
+  Vec3d centre;     // rotation: about this point
+  Vec3d rate;       // rotation: angular velocity, rad/s (in 2D only z)
+};
+
+struct Fluid {
+  Shape shape;
+  InitialVelocity velocity;
+};
+
+struct Body {
+  std::string name;
+  Shape shape;
+  WallKind kind = WallKind::slip;  // slip or no_slip
+};
+
+struct Camera {
+  std::optional<Vec3d> position, target;  // fitted to the domain where absent
+  double field_of_view = 35;              // vertical, degrees
+};
+
+struct Look {
+  std::string colour_by = "speed";  // a name of colour_fields(), see sim/core/frame.h
+  std::string colour_map = "water"; // a name of the renderer's colour maps
+  std::optional<std::array<double, 2>> range;  // of the colour scale; from the run's own data where absent
+  std::string background = "light";  // light or dark
+  bool show_walls = true, show_legend = true, show_floor = true;
+};
+
+struct Scene {
+  std::string name, about;
+  std::filesystem::path file;
+  int dimension = 3;
+  double particle_radius = 0.025;
+  Vec3d gravity{0, -9.81, 0};
+  Domain domain;
+  std::vector<Fluid> fluid;
+  std::vector<Body> bodies;
+  Parameters parameters;
+  Camera camera;
+  Look look;
+
+  double spacing() const { return 2 * particle_radius; }
+};
+
+}  // namespace curlew
