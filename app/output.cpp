@@ -1,6 +1,7 @@
 #include "app/output.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "sim/io/particle_files.h"
 
@@ -29,7 +30,9 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   }
   context_ = std::make_unique<OffscreenContext>();
   renderer_ = std::make_unique<Renderer>(options.width, options.height);
-  if (png_) frames_ = std::make_unique<FrameWriter>();
+  if (!png_) return;
+  std::filesystem::create_directories(folder_ + "/frames");
+  frames_ = std::make_unique<FrameWriter>();
 }
 
 FieldSet FrameOutput::demand() const { return renderer_ ? colour_demand(colour_) : FieldSet{}; }

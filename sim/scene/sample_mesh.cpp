@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "sim/scene/point_grid.h"
 
@@ -18,7 +19,7 @@ constexpr double candidate_gap = 0.3;  // longest edge of a face piece that give
 constexpr double face_distance = 0.78;
 
 // All three points beyond, or in, one face of the domain. Periodic faces are no walls.
-bool behind_wall(const std::vector<Vec3d>& corners, const Domain& domain, int dimension) {
+bool behind_wall(std::span<const Vec3d> corners, const Domain& domain, int dimension) {
   for (int axis = 0; axis < dimension; ++axis) {
     const double slack = 1e-9 * (domain.max[axis] - domain.min[axis]);
     const auto low = [&](Vec3d p) { return p[axis] <= domain.min[axis] + slack; };
@@ -53,7 +54,7 @@ std::vector<std::pair<Vec3d, Vec3d>> sharp_edges(const TriangleMesh& mesh, const
 // Halves the triangle across its longest edge until the pieces are small; their centres are the candidates. Pieces outside
 // the region are dropped early.
 void add_candidates(std::array<Vec3d, 3> corners, double gap, const Domain& region, std::vector<Vec3d>& candidates) {
-  if (behind_wall({corners.begin(), corners.end()}, region, 3)) return;
+  if (behind_wall(corners, region, 3)) return;
   std::size_t longest = 0;
   const auto edge = [&](std::size_t k) { return length(corners[(k + 1) % 3] - corners[k]); };
   for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) longest = edge(k) > edge(longest) ? k : longest;
@@ -119,7 +120,7 @@ std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, const D
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [ia, ib, ic] = mesh.triangles[t];
     const Vec3d a = mesh.vertices[ia], b = mesh.vertices[ib], c = mesh.vertices[ic];
-    if (behind_wall({a, b, c}, domain, 3)) continue;
+    if (behind_wall(std::array{a, b, c}, domain, 3)) continue;
     chosen.push_back(t);
     add_candidates({a, b, c}, candidate_gap * spacing, reachable, candidates);
   }

@@ -66,9 +66,10 @@ inline std::vector<Vec3d> places_on(const TriangleMesh& mesh, double gap) {
   std::vector<Vec3d> places;
   for (const auto& triangle : mesh.triangles) {
     const Vec3d a = mesh.vertices[triangle[0]], b = mesh.vertices[triangle[1]], c = mesh.vertices[triangle[2]];
-    const int n = static_cast<int>(std::ceil(std::max(length(b - a), length(c - a)) / gap));
-    for (int i = 0; i <= n; ++i) {
-      for (int j = 0; j <= n - i; ++j) places.push_back(a + static_cast<double>(i) / n * (b - a) + static_cast<double>(j) / n * (c - a));
+    const int across = static_cast<int>(std::ceil(length(b - a) / gap)), up = static_cast<int>(std::ceil(length(c - a) / gap));
+    for (int i = 0; i <= across; ++i) {
+      const double s = static_cast<double>(i) / across;
+      for (int j = 0; j <= up; ++j) places.push_back(a + s * (b - a) + (1 - s) * j / up * (c - a));
     }
   }
   return places;

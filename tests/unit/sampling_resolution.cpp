@@ -59,7 +59,7 @@ TEST_CASE("what does not fit is refused before anything is allocated", "[samplin
   scene.file = "dam_break.json";
   scene.particle_radius = 1e-6;
   CHECK_THROWS_WITH(check_resolution(scene, 24e9),
-                    "dam_break.json: particle_radius 1e-6 m makes about 1.2e17 particles, which with their boundary need "
+                    "dam_break.json: particle_radius 1e-6 m makes about 1.3e17 particles, which with their boundary need "
                     "about 88 EB of memory where this machine has 24 GB, expected a larger particle_radius");
   CHECK_THROWS_AS(sample_fluid(scene), InputError);
   scene.particle_radius = 2e-4;

@@ -42,7 +42,7 @@ void check_even(const std::string& name, const Evenness& even, Bounds bounds) {
 Evenness measured(const Shape& shape, double d, const Domain& domain = wide_domain()) {
   const auto samples = sample_surface(shape, d, 3, domain);
   const TriangleMesh mesh = surface_mesh(shape, 3, domain);
-  return evenness(samples, places_on(mesh, 0.1 * d), surface_area(mesh), d, 2);
+  return evenness(samples, places_on(mesh, 0.15 * d), surface_area(mesh), d, 2);
 }
 
 Mesh mesh_of(TriangleMesh triangles) {

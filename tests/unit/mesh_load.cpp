@@ -1,0 +1,177 @@
+// Meshes from OBJ, PLY and STL files: the same box from each, and what must be refused.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "sim/core/error.h"
+#include "sim/scene/mesh.h"
+#include "sim/scene/mesh_index.h"
+
+using namespace curlew;
+
+namespace {
+
+// A folder of its own, gone afterwards.
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("curlew_mesh_" + std::to_string(getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+    return path / name;
+  }
+};
+
+// A box of 1 by 2 by 3, its faces two triangles each.
+TriangleMesh box() {
+  TriangleMesh mesh;
+  for (const double x : {0.0, 1.0}) {
+    for (const double y : {0.0, 2.0}) {
+      for (const double z : {0.0, 3.0}) mesh.vertices.push_back({x, y, z});
+    }
+  }
+  using Quad = std::array<std::uint32_t, 4>;
+  for (const auto& [a, b, c, d] : {Quad{0, 1, 3, 2}, Quad{4, 6, 7, 5}, Quad{0, 4, 5, 1}, Quad{2, 3, 7, 6}, Quad{0, 2, 6, 4}, Quad{1, 5, 7, 3}}) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  }
+  return mesh;
+}
+
+template <class T>
+void put(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string obj_text(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  for (const Vec3d& v : mesh.vertices) text << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  return text.str();
+}
+
+std::string ply_text(const TriangleMesh& mesh, bool binary) {
+  std::ostringstream text;
+  text << "ply\nformat " << (binary ? "binary_little_endian" : "ascii") << " 1.0\nelement vertex " << mesh.vertices.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
+       << "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes;
+  for (const Vec3d& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) put(bytes, static_cast<float>(v[k]));
+    if (!binary) text << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  }
+  for (const auto& triangle : mesh.triangles) {
+    put(bytes, std::uint8_t{3});
+    for (const std::uint32_t index : triangle) put(bytes, index);
+    if (!binary) text << "3 " << triangle[0] << ' ' << triangle[1] << ' ' << triangle[2] << '\n';
+  }
+  return text.str() + (binary ? bytes : "");
+}
+
+std::string stl_text(const TriangleMesh& mesh, bool binary) {
+  std::ostringstream text;
+  text << "solid box\n";
+  std::string bytes(80, ' ');
+  put(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) put(bytes, 0.0F);
+    for (const std::uint32_t index : triangle) {
+      const Vec3d v = mesh.vertices[index];
+      for (int k = 0; k < 3; ++k) put(bytes, static_cast<float>(v[k]));
+      text << "vertex " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+    }
+    put(bytes, std::uint16_t{0});
+    text << "endloop\nendfacet\n";
+  }
+  text << "endsolid box\n";
+  return binary ? bytes : text.str();
+}
+
+void check_box(const std::filesystem::path& file) {
+  INFO(file.filename());
+  const TriangleMesh mesh = load_mesh(file);
+  CHECK(mesh.vertices.size() == 8);
+  CHECK(mesh.triangles.size() == 12);
+  CHECK(signed_volume(mesh) == Approx(6));
+  CHECK(surface_area(mesh) == Approx(22));
+  CHECK_NOTHROW(require_closed(mesh, "box"));
+}
+
+}  // namespace
+
+TEST_CASE("the same box comes from every format", "[mesh]") {
+  const Folder folder;
+  check_box(folder.write("box.obj", obj_text(box())));
+  check_box(folder.write("ascii.ply", ply_text(box(), false)));
+  check_box(folder.write("binary.ply", ply_text(box(), true)));
+  check_box(folder.write("ascii.stl", stl_text(box(), false)));
+  check_box(folder.write("binary.STL", stl_text(box(), true)));
+  check_box(folder.write("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n"
+                                      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n"));
+}
+
+TEST_CASE("a mesh that is inside out is turned", "[mesh]") {
+  const Folder folder;
+  TriangleMesh mesh = box();
+  for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  CHECK(signed_volume(mesh) == Approx(-6));
+  check_box(folder.write("inside_out.obj", obj_text(mesh)));
+}
+
+TEST_CASE("vertices at one place join, and triangles that collapse go", "[mesh]") {
+  const Folder folder;
+  TriangleMesh mesh = box();
+  mesh.vertices.push_back(mesh.vertices[0]);
+  mesh.vertices.push_back({-0.0, 0, 0});
+  mesh.triangles[0][0] = 8;            // the corner again, by other numbers
+  mesh.triangles[1][0] = 9;
+  mesh.triangles.push_back({0, 8, 1});  // no area
+  check_box(folder.write("double.obj", obj_text(mesh)));
+}
+
+TEST_CASE("closedness counts what is wrong", "[mesh]") {
+  TriangleMesh open = box();
+  open.triangles.pop_back();
+  CHECK_THROWS_WITH(require_closed(open, "a.obj"), "a.obj: 3 of 18 edges are open, expected a closed surface, in which every "
+                                                   "edge belongs to two triangles");
+  TriangleMesh doubled = box();
+  doubled.triangles.push_back(doubled.triangles[0]);
+  CHECK_THROWS_WITH(require_closed(doubled, "a.obj"), Catch::StartsWith("a.obj: 3 of 18 edges belong to more than two triangles"));
+  TriangleMesh twisted = box();
+  std::swap(twisted.triangles[0][0], twisted.triangles[0][1]);
+  CHECK_THROWS_WITH(require_closed(twisted, "a.obj"), Catch::StartsWith("a.obj: 3 of 18 edges lie between triangles"));
+}
+
+TEST_CASE("meshes are scaled, turned about x, y, z in turn, and moved", "[mesh]") {
+  TriangleMesh mesh;
+  mesh.vertices = {{1, 0, 0}, {0, 1, 0}};
+  const auto check = [&](Vec3d degrees, Vec3d first, Vec3d second) {
+    const TriangleMesh moved = transformed(mesh, 2, degrees, {10, 20, 30});
+    CHECK(length(moved.vertices[0] - Vec3d{10, 20, 30} - first) < 1e-12);
+    CHECK(length(moved.vertices[1] - Vec3d{10, 20, 30} - second) < 1e-12);
+  };
+  check({0, 0, 0}, {2, 0, 0}, {0, 2, 0});
+  check({90, 0, 0}, {2, 0, 0}, {0, 0, 2});
+  check({0, 90, 0}, {0, 0, -2}, {0, 2, 0});
+  check({0, 0, 90}, {0, 2, 0}, {-2, 0, 0});
+  check({90, 90, 0}, {0, 0, -2}, {2, 0, 0});
+}
+
+TEST_CASE("distance to a triangle, thin and collapsed ones too", "[mesh]") {
+  const Vec3d a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0};
+  CHECK(distance_to_triangle({1, 1, 3}, a, b, c) == Approx(3));
+  CHECK(distance_to_triangle({-3, -4, 0}, a, b, c) == Approx(5));
+  CHECK(distance_to_triangle({2, -3, 0}, a, b, c) == Approx(3));
+  CHECK(distance_to_triangle({3, 3, 0}, a, b, c) == Approx(std::sqrt(2)));
+  CHECK(distance_to_triangle({2, 5, 0}, a, b, b) == Approx(5));
+  CHECK(distance_to_triangle({0, 5, 0}, a, a, a) == Approx(5));
+}
