@@ -29,6 +29,7 @@ struct Case {
 constexpr double largest_time = 0.1;
 
 Case named_case(const std::string& text) {
+  parse_particle_number("--cases", text);  // so that a wrong one is told before the first is run
   if (text == "24k") return {text, 1.0};
   if (text == "97k") return {text, 0.5};
   return {text, largest_time};

@@ -1,35 +1,58 @@
 #include "app/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "app/commands.h"
 #include "app/numbers.h"
 #include "sim/core/error.h"
 #include "sim/core/nearest_name.h"
+#include "sim/scene/json.h"
 
 namespace curlew {
 namespace {
 
-double parse_positive(const std::string& option, const std::string& text, const std::string& unit) {
+constexpr double no_limit = std::numeric_limits<double>::max();
+constexpr double most_frames_a_second = 1e6;
+constexpr std::int64_t most_threads = 1024;  // far more than any machine has, and still few enough to be started
+constexpr std::int64_t most_steps = 1000000000000;
+constexpr std::int64_t most_seed = 9007199254740991;  // run.json holds doubles, which count to 2^53
+
+double parse_positive(const std::string& option, const std::string& text, const std::string& unit,
+                      double most = no_limit) {
   double value = 0;
   const char* last = text.data() + text.size();
   const auto [end, status] = std::from_chars(text.data(), last, value);
-  if (status != std::errc() || end != last || !std::isfinite(value) || value <= 0) {
-    throw InputError(option + " is \"" + text + "\", expected a positive number" + (unit.empty() ? "" : " of " + unit));
+  if (status != std::errc() || end != last || !std::isfinite(value) || value <= 0 || value > most) {
+    throw InputError(option + " is " + in_quotes(text) + ", expected a positive number" + (unit.empty() ? "" : " of " + unit) +
+                     (most < no_limit ? ", at most " + plain_number(most) : ""));
   }
   return value;
 }
 
-std::int64_t parse_count(const std::string& option, const std::string& text, std::int64_t least) {
+std::int64_t parse_count(const std::string& option, const std::string& text, std::int64_t least, std::int64_t most) {
   std::int64_t value = 0;
   const char* last = text.data() + text.size();
   const auto [end, status] = std::from_chars(text.data(), last, value);
-  if (status != std::errc() || end != last || value < least) {
-    throw InputError(option + " is \"" + text + "\", expected a whole number of at least " + std::to_string(least));
+  if (status != std::errc() || end != last || value < least || value > most) {
+    throw InputError(option + " is " + in_quotes(text) + ", expected a whole number from " + std::to_string(least) + " to " +
+                     std::to_string(most));
   }
   return value;
+}
+
+// The range that a scene file has too.
+double parse_radius(const std::string& text) {
+  const double radius = parse_positive("--radius", text, "metres", 1000);
+  if (radius < 1e-9) throw InputError("--radius is " + in_quotes(text) + ", expected at least 1e-9 metres");
+  return radius;
+}
+
+int parse_threads(const std::string& text) {
+  return static_cast<int>(parse_count("--threads", text, 1, most_threads));
 }
 
 void parse_size(const std::string& text, int& width, int& height) {
@@ -40,7 +63,7 @@ void parse_size(const std::string& text, int& width, int& height) {
     const char* last = parts[k].data() + parts[k].size();
     const auto [end, status] = std::from_chars(parts[k].data(), last, *numbers[k]);
     if (parts[k].empty() || status != std::errc() || end != last || *numbers[k] < 16 || *numbers[k] > 8192) {
-      throw InputError("--size is \"" + text + "\", expected WIDTHxHEIGHT such as 1280x720, each from 16 to 8192");
+      throw InputError("--size is " + in_quotes(text) + ", expected WIDTHxHEIGHT such as 1280x720, each from 16 to 8192");
     }
   }
 }
@@ -52,14 +75,22 @@ std::string parse_word(const std::string& option, const std::string& text, const
     if (word == text) return text;
     all += (all.empty() ? "" : word == words.back() ? " or " : ", ") + word;
   }
-  throw InputError(option + " is \"" + text + "\", expected " + all);
+  throw InputError(option + " is " + in_quotes(text) + ", expected " + all);
+}
+
+void add_path(CLI::App& app, const std::string& name, std::string& target, const std::string& help) {
+  const auto take = [&target, name](const std::string& text) {
+    if (text.empty()) throw InputError(name + " is empty, expected a path");
+    target = text;
+  };
+  app.add_option_function<std::string>(name, take, help);
 }
 
 // Options are read as text and checked here, so that every message is ours.
 void add_common_options(CLI::App& app, RunOptions& o) {
   app.add_option("SCENE", o.scene, "Scene file, or the name of a bundled scene (curlew scenes)");
   app.add_option("--set", o.settings, "key=value: any parameter (curlew params), repeatable")->allow_extra_args(false);
-  const auto radius = [&](const std::string& t) { o.radius = parse_positive("--radius", t, "metres"); };
+  const auto radius = [&](const std::string& t) { o.radius = parse_radius(t); };
   app.add_option_function<std::string>("--radius", radius, "Particle radius in m");
   const auto particles = [&](const std::string& t) { o.particles = parse_particle_number("--particles", t); };
   app.add_option_function<std::string>("--particles", particles, "Resolution that comes nearest: 24k, 1.2M, 1e5");
@@ -67,52 +98,43 @@ void add_common_options(CLI::App& app, RunOptions& o) {
 
 void add_run_options(CLI::App& app, RunOptions& o) {
   add_common_options(app, o);
-  const auto positive = [&](const char* name, auto& target, const char* unit, const char* help) {
+  const auto positive = [&](const char* name, auto& target, const char* unit, const char* help, double most = no_limit) {
     app.add_option_function<std::string>(
-        name, [&target, name, unit](const std::string& t) { target = parse_positive(name, t, unit); }, help);
+        name, [&target, name, unit, most](const std::string& t) { target = parse_positive(name, t, unit, most); }, help);
   };
-  const auto count = [&](const char* name, auto& target, std::int64_t least, const char* help) {
+  const auto count = [&](const char* name, auto& target, std::int64_t least, std::int64_t most, const char* help) {
     app.add_option_function<std::string>(
         name,
-        [&target, name, least](const std::string& t) {
-          using Target = std::remove_reference_t<decltype(target)>;
-          if constexpr (std::is_same_v<Target, std::optional<std::int64_t>>) {
-            target = parse_count(name, t, least);
-          } else {
-            const std::int64_t value = parse_count(name, t, least);
-            target = static_cast<Target>(value);
-            if (static_cast<std::int64_t>(target) != value) {
-              throw InputError(std::string(name) + " is \"" + t + "\", which is too large");
-            }
-          }
+        [&target, name, least, most](const std::string& t) {
+          target = static_cast<std::remove_reference_t<decltype(target)>>(parse_count(name, t, least, most));
         },
         help);
   };
   positive("--time", o.time, "seconds", "Simulated seconds, from the start of the run (also after a resume)");
-  count("--steps", o.steps, 1, "Steps, from the start of the run");
-  positive("--fps", o.fps, "frames a second", "Frames a simulated second (60)");
-  count("--threads", o.threads, 1, "Threads (all cores)");
-  count("--seed", o.seed, 0, "Seed of all random numbers (0)");
-  app.add_option("--out", o.out, "Folder of the run (out/NAME)");
+  count("--steps", o.steps, 1, most_steps, "Steps, from the start of the run");
+  positive("--fps", o.fps, "frames a second", "Frames a simulated second (60)", most_frames_a_second);
+  count("--threads", o.threads, 1, most_threads, "Threads (all cores)");
+  count("--seed", o.seed, 0, most_seed, "Seed of all random numbers (0)");
+  add_path(app, "--out", o.out, "Folder of the run (out/NAME)");
   app.add_option_function<std::string>(
       "--stats", [&](const std::string& t) { o.stats_each_frame = parse_word("--stats", t, {"step", "frame"}) == "frame"; },
       "Rows of stats.csv: step or frame (step)");
   app.add_option_function<std::string>(
       "--columns", [&](const std::string& t) { o.full_columns = parse_word("--columns", t, {"basic", "full"}) == "full"; },
       "Columns of stats.csv: basic or full (basic)");
-  app.add_flag("--frames", o.frames, "Write PNG frames, off-screen");
+  app.add_flag("--frames", o.frames, "Write PNG frames, off-screen")->disable_flag_override();
   app.add_option_function<std::string>(
       "--size", [&](const std::string& t) { parse_size(t, o.width, o.height); }, "Size of frames and video (1280x720)");
-  app.add_option("--video", o.video, "Write this mp4 (needs ffmpeg)");
+  add_path(app, "--video", o.video, "Write this mp4 (needs ffmpeg)");
   app.add_option_function<std::string>(
       "--particles-out",
       [&](const std::string& t) { o.particles_out = parse_word("--particles-out", t, {"vtk", "ply", "bgeo"}); },
       "Write particles each frame: vtk, ply or bgeo");
   positive("--checkpoint-every", o.checkpoint_every, "seconds", "Write a checkpoint each so many simulated seconds");
-  app.add_option("--resume", o.resume, "Go on from this checkpoint, to the same bits");
-  count("--hash-passes", o.hash_passes, 1, "Write passes.csv every so many steps: a hash after each pass");
-  app.add_flag("--quiet", o.quiet, "Say nothing but errors");
-  app.add_flag("--overwrite", o.overwrite, "Replace what an earlier run left in the folder");
+  add_path(app, "--resume", o.resume, "Go on from this checkpoint, to the same bits");
+  count("--hash-passes", o.hash_passes, 1, most_steps, "Write passes.csv every so many steps: a hash after each pass");
+  app.add_flag("--quiet", o.quiet, "Say nothing but errors")->disable_flag_override();
+  app.add_flag("--overwrite", o.overwrite, "Replace what an earlier run left in the folder")->disable_flag_override();
 }
 
 void add_bench_options(CLI::App& app, BenchOptions& o) {
@@ -122,8 +144,7 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   app.add_option("--cases", o.cases, "Particle numbers (24k 97k)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
-      "--threads", [&](const std::string& t) { o.threads = static_cast<int>(parse_count("--threads", t, 1)); },
-      "Threads (all cores)");
+      "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
   app.add_option_function<std::string>(
       "--share", [&](const std::string& t) { o.time_share = parse_positive("--share", t, ""); },
       "Run this share of each case's time (1)");
@@ -132,28 +153,52 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
       "Exit 1 where a case makes fewer million particle-steps a second");
 }
 
-// What CLI11 could not make sense of, as one sentence of ours.
-[[noreturn]] void report_usage(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& args) {
+std::string called(const CLI::App& app) {
+  return app.get_parent() == nullptr ? "curlew" : "curlew " + app.get_name();
+}
+
+// A word that no command takes: one that is not known, or an option that stands before its command.
+[[noreturn]] void report_extra(const CLI::App& app, const CLI::App& command) {
+  const bool before = command.remaining().empty();  // the words left over stand before the command, if there is one
+  const CLI::App& owner = before ? app : command;
+  const std::string word = owner.remaining().empty() ? "" : owner.remaining().front();
+  const bool is_option = word.starts_with("-");
+  const std::string name = is_option ? word.substr(0, word.find('=')) : word;
+  std::vector<std::string> known, own;
+  for (const CLI::Option* option : owner.get_options()) known.push_back(option->get_name());
+  for (const CLI::Option* option : command.get_options()) own.push_back(option->get_name());
+  for (const CLI::App* sub : app.get_subcommands({})) {
+    if (&owner == &app) known.push_back(sub->get_name());
+  }
+  if (&owner != &command && std::find(own.begin(), own.end(), name) != own.end()) {
+    throw InputError(in_quotes(name) + " stands before " + in_quotes(command.get_name()) + ", expected it after");
+  }
+  const std::string near = nearest_name(name, known);
+  const std::string advice = near.empty() ? "; `" + called(owner) + " --help` lists what there is"
+                                          : "; did you mean \"" + near + "\"?";
+  if (!is_option && &owner != &app) {
+    throw InputError(called(owner) + ": found " + in_quotes(name) + ", expected no further argument" + advice);
+  }
+  throw InputError(called(owner) + " has no " + (is_option ? "option " : "command ") + in_quotes(name) + advice);
+}
+
+// What CLI11 could not make sense of, as one sentence of ours: its own words differ between versions.
+[[noreturn]] void report_usage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
   for (const CLI::App* sub : app.get_subcommands()) command = sub;
-  const std::string name = command == &app ? "curlew" : "curlew " + command->get_name();
-  std::vector<std::string> known;
-  for (const CLI::Option* option : command->get_options()) known.push_back(option->get_name());
-  for (const CLI::App* sub : app.get_subcommands({})) {
-    if (command == &app) known.push_back(sub->get_name());
-  }
-  if (error.get_name() == "ExtrasError") {
-    const std::vector<std::string> rest = command->remaining().empty() ? app.remaining() : command->remaining();
-    const std::string word = rest.empty() ? (args.empty() ? "" : args.front()) : rest.front();
-    const std::string bare = word.substr(0, word.find('='));
-    const std::string near = nearest_name(bare, known);
-    const std::string kind = word.starts_with("-") ? "option" : command == &app ? "command" : "argument";
-    throw InputError(name + " has no " + kind + " \"" + bare + "\"" +
-                     (near.empty() ? "; `" + name + " --help` lists them" : "; did you mean \"" + near + "\"?"));
-  }
+  const auto kind = static_cast<CLI::ExitCodes>(error.get_exit_code());
+  if (kind == CLI::ExitCodes::ExtrasError) report_extra(app, *command);
   std::string what = error.what();
+  if (kind == CLI::ExitCodes::ArgumentMismatch) {
+    const std::string option = what.substr(0, what.find_first_of(": "));
+    if (what.find("flag override") != std::string::npos) {
+      what = (option.starts_with("-") ? option : "--" + option) + " takes no value";
+    } else {
+      what = option + (what.find("received") != std::string::npos ? " was given more than once" : " needs a value");
+    }
+  }
   if (!what.empty() && what.back() == '.') what.pop_back();
-  throw InputError(name + ": " + what + "; see `" + name + " --help`");
+  throw InputError(what + "; see `" + called(*command) + " --help`");
 }
 
 }  // namespace
@@ -184,13 +229,12 @@ int dispatch(int argc, char** argv) {
   params->add_flag("--schema", schema, "The JSON schema of a scene file");
   CLI::App* doctor = app.add_subcommand("doctor", "Say what this machine can do");
 
-  const std::vector<std::string> args(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {  // --help, --version
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    report_usage(app, error, args);
+    report_usage(app, error);
   }
   if (run_app->parsed()) return run_command(run);
   if (check->parsed()) return check_command(run);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/error.h"
+#include "sim/scene/json.h"
 
 namespace curlew {
 
@@ -14,7 +15,7 @@ double parse_particle_number(const std::string& option, const std::string& text)
   const std::string unit(end, last);
   const double scale = unit.empty() ? 1 : unit == "k" ? 1e3 : unit == "M" ? 1e6 : 0;
   if (status != std::errc() || scale == 0 || !(value * scale >= 1) || !std::isfinite(value)) {
-    throw InputError(option + " is \"" + text + "\", expected a number such as 24389, 24k, 1.2M or 1e5");
+    throw InputError(option + " is " + in_quotes(text) + ", expected a number such as 24389, 24k, 1.2M or 1e5");
   }
   return value * scale;
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "sim/core/error.h"
 #include "sim/io/particle_files.h"
 
 namespace curlew {
@@ -26,6 +27,10 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   if (!options.frames && options.video.empty()) return;
   geometry_ = make_geometry(scene);
   if (!options.video.empty()) {
+    if (std::filesystem::is_directory(options.video)) {
+      throw InputError("cannot write the video " + options.video + ": it is a folder, expected a file such as " +
+                       options.video + "/video.mp4");
+    }
     video_ = std::make_unique<VideoWriter>(options.video, options.width, options.height, options.fps);
   }
   context_ = std::make_unique<OffscreenContext>();

@@ -17,7 +17,9 @@
 #include "sim/io/checkpoint.h"
 #include "sim/io/run_folder.h"
 #include "sim/measure/state_hash.h"
+#include "sim/scene/json.h"
 #include "sim/scene/reader.h"
+#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -33,13 +35,28 @@ struct Start {
   std::optional<std::array<double, 2>> colour_range;
 };
 
+// What the checkpoint holds may be said again, but not otherwise.
+void check_same(const RunOptions& options, const Checkpoint& checkpoint) {
+  using std::filesystem::path;
+  if (!options.scene.empty() && path(options.scene).stem() != path(checkpoint.scene_file).stem()) {
+    throw InputError("--resume goes on with the scene of the checkpoint, " + in_quotes(checkpoint.scene_file) +
+                     "; leave out " + in_quotes(options.scene));
+  }
+  if (options.seed != 0 && options.seed != checkpoint.seed) {
+    throw InputError("--resume keeps the seed of the checkpoint, which is " + std::to_string(checkpoint.seed) +
+                     "; leave out --seed");
+  }
+}
+
 Start resume(const RunOptions& options) {
   if (options.radius || options.particles) {
     throw InputError("--resume keeps the particles of the checkpoint; leave out --radius and --particles");
   }
   Checkpoint checkpoint = read_checkpoint(options.resume);
+  check_same(options, checkpoint);
   Scene scene = parse_scene(checkpoint.scene_json, checkpoint.scene_file);
   apply_settings(scene.parameters, options.settings);
+  check_resolution(scene);
   Start start{make_empty_world(scene, checkpoint.seed), checkpoint.step, {}};
   World& w = start.world;
   w.fields = std::move(checkpoint.fields);
@@ -75,6 +92,7 @@ class Run {
   }
 
   int go() {
+    watch_for_interrupt();
     if (!resumed_) {
       recorder_->write_row(world_, finished());
       write_due_frames();
@@ -95,15 +113,15 @@ class Run {
 
  private:
   std::string choose_folder() const {
-    std::string folder = options_.out;
-    if (folder.empty() && resumed_) {
-      // A checkpoint lies in RUN/checkpoints/.
-      folder = std::filesystem::absolute(options_.resume).parent_path().parent_path().string();
-    }
-    if (folder.empty()) folder = "out/" + (world_.scene.name.empty() ? "run" : world_.scene.name);
-    if (resumed_) {
-      std::error_code ignored;
-      std::filesystem::create_directories(folder, ignored);
+    namespace fs = std::filesystem;
+    // The run that is resumed: a checkpoint lies in RUN/checkpoints/.
+    const fs::path holder = resumed_ ? fs::absolute(options_.resume).parent_path() : fs::path();
+    const fs::path own = holder.filename() == "checkpoints" ? holder.parent_path() : fs::path();
+    const std::string folder = !options_.out.empty() ? options_.out
+                               : !own.empty()        ? own.string()
+                                                     : "out/" + world_.scene.file.stem().string();
+    std::error_code ignored;
+    if (!own.empty() && fs::equivalent(folder, own, ignored)) {
       remove_unfinished_files(folder);
     } else {
       prepare_run_folder(folder, options_.overwrite);

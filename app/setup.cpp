@@ -3,6 +3,7 @@
 #include "app/assets.h"
 #include "sim/core/error.h"
 #include "sim/scene/bundled.h"
+#include "sim/scene/json.h"
 #include "sim/scene/reader.h"
 #include "sim/scene/resolution.h"
 
@@ -12,7 +13,7 @@ void apply_settings(Parameters& parameters, const std::vector<std::string>& sett
   for (const std::string& setting : settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw InputError("--set is \"" + setting + "\", expected key=value such as viscosity.nu=0.01");
+      throw InputError("--set is " + in_quotes(setting) + ", expected key=value such as viscosity.nu=0.01");
     }
     try {
       set_parameter(parameters, parameter_row(setting.substr(0, equals)), setting.substr(equals + 1), "--set");

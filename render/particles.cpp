@@ -27,14 +27,14 @@ ParticleLayer::ParticleLayer()
       points_(gl::make_vertex_array()),
       colours_(gl::make_texture(GL_RGBA8, 256, 2)) {
   glEnableVertexArrayAttrib(points_, 0);
-  glVertexArrayAttribFormat(points_, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribFormat(points_, 0, 4, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(points_, 0, 0);
 }
 
-void ParticleLayer::upload(const Frame& frame) {
-  count_ = frame.position.size();
-  positions_.upload(std::span<const Vec3>(frame.position));
-  values_.upload(std::span<const float>(frame.value));
+void ParticleLayer::upload(std::span<const Vec3> positions, std::span<const float> values) {
+  count_ = positions.size();
+  positions_.upload(positions);
+  values_.upload(values);
   if (count_ > indexed_) {
     indexed_ = count_ + count_ / 4;
     indices_.upload(std::span<const std::uint32_t>(quad_indices(indexed_)));

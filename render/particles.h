@@ -2,10 +2,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "render/gl.h"
 #include "render/theme.h"
-#include "sim/core/frame.h"
+#include "sim/core/vec.h"
 
 namespace curlew {
 
@@ -13,7 +14,8 @@ class ParticleLayer {
  public:
   ParticleLayer();
 
-  void upload(const Frame& frame);
+  // Positions with the factor on the drawn radius in w, and one value each or none.
+  void upload(std::span<const Vec3> positions, std::span<const float> values);
 
   // Colours by frame.value through the map, or the theme's plain water where there are no values.
   void set_colours(std::string_view map, const Colour& water, std::array<double, 2> range, bool coloured);

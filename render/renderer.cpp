@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/colour_range.h"
 #include "render/context.h"
+#include "render/drop_size.h"
 #include "render/gl.h"
 #include "render/legend.h"
 #include "render/overlay.h"
@@ -113,7 +114,10 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
   const Look& look = settings.look;
   const Theme& theme = theme_named(look.background);
   const bool flat = geometry.dimension == 2, coloured = !frame.value.empty();
-  const double radius = settings.particle_scale.value_or(flat ? 1.4 : 1.15) * geometry.particle_radius;
+  const DropSize size = settings.particle_scale ? DropSize{*settings.particle_scale, *settings.particle_scale}
+                        : flat                  ? kDropSize2d
+                                                : kDropSize3d;
+  const double radius = size.in_water * geometry.particle_radius;
   const std::array<double, 2> range = look.range ? *look.range : colour_range(frame);
 
   s.view = view_of(settings.camera, geometry.domain, geometry.dimension, static_cast<double>(s.width) / s.height,
@@ -126,7 +130,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_PROGRAM_POINT_SIZE);
 
-  s.particles.upload(frame);
+  s.particles.upload(sized_particles(frame, size), frame.value);
   s.particles.set_colours(look.colour_map, theme.water, range, coloured);
   s.solids.upload(frame.geometry);
   s.draw_shadow(light, radius, flat);

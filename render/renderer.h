@@ -14,7 +14,8 @@ namespace curlew {
 struct ViewSettings {
   Camera camera;
   Look look;  // without look.range, colours span what this one frame holds
-  // Drawn radius over particle radius. Otherwise 1.15, and 1.4 in 2D, so that a little overlap closes the gaps.
+  // Drawn radius over particle radius, the same for all. Otherwise a little more than 1 in the water, which closes the
+  // gaps, and less for drops that fly alone (render/drop_size.h).
   std::optional<double> particle_scale;
 };
 

@@ -22,18 +22,18 @@ Colour web(std::uint32_t rgb) {
 
 Theme light_theme() {
   Theme t;
-  t.key = {0.92f, 0.88f, 0.82f};
-  t.sky = {0.58f, 0.64f, 0.72f};
-  t.ground = {0.34f, 0.34f, 0.35f};
+  t.key = {0.78f, 0.75f, 0.70f};
+  t.sky = {0.43f, 0.48f, 0.54f};
+  t.ground = {0.25f, 0.25f, 0.26f};
   t.key_in_shadow = 0.10f;
   t.reflections = 0.75f;
-  t.occlusion = 0.9f;
-  t.background_top = web(0xc9d6e2);
-  t.background_bottom = web(0xf1f3f4);
-  t.floor = web(0xcfd3d6);
-  t.grid = web(0x8c979f);
+  t.occlusion = 1.0f;
+  t.background_top = web(0xb7c4d0);
+  t.background_bottom = web(0xe9ecee);
+  t.floor = web(0xcbcfd3);
+  t.grid = web(0x89949c);
   t.grid_strength = 0.55f;
-  t.body = web(0xc8b9a2);
+  t.body = web(0xd2c1a8);
   t.line = web(0x33424f);
   t.line_opacity = 0.55f;
   t.wall_opacity = 0.05f;

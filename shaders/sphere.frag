@@ -2,12 +2,13 @@
 in vec3 on_quad;
 flat in vec3 centre;
 flat in vec3 colour;
+flat in float radius;
 
 layout(location = 0) out vec4 albedo;
 layout(location = 1) out vec4 normal;
 
 void main() {
-  float r = domain_min.w;
+  float r = radius;
   vec3 origin = vec3(0), ray = normalize(on_quad);
   if (key_direction.w > 0.5) {
     origin = vec3(on_quad.xy, 0);

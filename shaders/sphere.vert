@@ -1,7 +1,7 @@
 // One quad a particle, four vertices each, that holds the sphere's silhouette exactly: it stands across the line from
 // the eye to the centre, and the cone that touches the sphere cuts it in a circle of radius r d / sqrt(d^2 - r^2).
 // Half a pixel is added for the rim that sphere.frag covers in part.
-layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };  // w: factor on the radius
 layout(std430, binding = 1) readonly buffer Values { float values[]; };
 
 layout(binding = 0) uniform sampler2D colour_map;
@@ -10,6 +10,7 @@ uniform vec4 value_range;  // smallest, 1 / (largest - smallest), 1 if coloured 
 out vec3 on_quad;       // view space
 flat out vec3 centre;   // view space
 flat out vec3 colour;   // sRGB
+flat out float radius;
 
 void main() {
   int particle = gl_VertexID >> 2;
@@ -20,7 +21,8 @@ void main() {
   colour = textureLod(colour_map, vec2((clamp(t, 0, 1) * 255 + 0.5) / 256, value_range.z > 0.5 ? 0.25 : 0.75), 0).rgb;
 
   vec3 right = vec3(1, 0, 0), up = vec3(0, 1, 0);
-  float r = domain_min.w + rim_pixels() * pixel_at(-centre.z);
+  radius = domain_min.w * positions[particle].w;
+  float r = radius + rim_pixels() * pixel_at(-centre.z);
   float reach = r;
   if (key_direction.w < 0.5) {
     float d2 = dot(centre, centre);

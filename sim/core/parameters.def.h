@@ -60,7 +60,7 @@
   REAL(viscosity_factor, 0.125, 0.01, 0.25, 0.001, 10.0, "1", "", live,                                              \
        "Step limit from explicit viscosity: factor times d^2 / nu (Morris et al. 1997).")                            \
   REAL(growth, 1.1, 1.01, 2.0, 1.001, 1000.0, "1", "", live, "Most that a step may grow over the one before.")       \
-  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step.")                                \
+  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step that the limits may choose.")                                \
   REAL(fixed_step, 0.0, 0.0, 1e-2, 0.0, 10.0, "s", "dt", live, "Fixed time step; 0 chooses the step by the limits.") \
   REAL(max_displacement, 5.0, 1.0, 10.0, 0.1, 1e6, "d", "", live,                                                    \
        "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")

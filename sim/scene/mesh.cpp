@@ -1,70 +1,45 @@
 #include "sim/scene/mesh.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <unordered_map>
 
 #include "sim/core/error.h"
-#include "sim/core/nearest_name.h"
+#include "sim/scene/file_text.h"
 #include "sim/scene/json.h"
-#include "sim/scene/mesh_precheck.h"
+#include "sim/scene/mesh_formats.h"
 
 namespace curlew {
 namespace {
 
 struct PlaceHash {
-  std::size_t operator()(const std::array<float, 3>& p) const {
+  std::size_t operator()(const std::array<double, 3>& p) const {
     std::size_t hash = 0;
-    for (const float x : p) hash = hash * 1000003 + std::hash<float>()(x);
+    for (const double x : p) hash = hash * 1000003 + std::hash<double>()(x);
     return hash;
   }
 };
 
-// Collects triangles; vertices with the same three numbers become one.
-class MeshJoiner {
- public:
-  explicit MeshJoiner(const std::filesystem::path& file) : file_(file) {}
-
-  void add(const aiMesh& part) {
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      std::array<std::uint32_t, 3> triangle{};
-      for (std::size_t k = 0; k < 3; ++k) triangle[k] = vertex(part, face.mIndices[k]);
-      const auto [a, b, c] = triangle;
-      if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
-    }
-  }
-
+// Vertices with the same three numbers become one; triangles that then name a vertex twice go.
+TriangleMesh joined(const TriangleMesh& raw) {
   TriangleMesh mesh;
-
- private:
-  std::uint32_t vertex(const aiMesh& part, unsigned index) {
-    if (index >= part.mNumVertices) {
-      throw InputError(file_.string() + ": a triangle names vertex " + std::to_string(index) + " of " +
-                       std::to_string(part.mNumVertices) + ", expected a vertex that the file holds");
-    }
-    const aiVector3D p = part.mVertices[index];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw InputError(file_.string() + ": vertex " + std::to_string(index) +
-                       " has a coordinate that is not a finite number, expected three finite numbers");
-    }
-    const std::array<float, 3> key{p.x + 0.0F, p.y + 0.0F, p.z + 0.0F};  // -0 becomes 0
-    const auto [entry, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
-    if (is_new) mesh.vertices.push_back({p.x, p.y, p.z});
+  std::unordered_map<std::array<double, 3>, std::uint32_t, PlaceHash> known;
+  const auto vertex = [&](std::uint32_t index) {
+    const Vec3d p = raw.vertices[index];
+    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // -0 becomes 0
+    const auto [entry, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (is_new) mesh.vertices.push_back({key[0], key[1], key[2]});
     return entry->second;
+  };
+  for (const auto& triangle : raw.triangles) {
+    const std::uint32_t a = vertex(triangle[0]), b = vertex(triangle[1]), c = vertex(triangle[2]);
+    if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
   }
-
-  const std::filesystem::path& file_;
-  std::unordered_map<std::array<float, 3>, std::uint32_t, PlaceHash> known_;
-};
+  return mesh;
+}
 
 // How often each edge is used, forwards minus backwards and in all.
 struct EdgeUse {
@@ -99,17 +74,19 @@ Vec3d rotated(Vec3d p, Vec3d degrees) {
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file) {
-  precheck_mesh_file(file);
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-  if (scene == nullptr) throw InputError(file.string() + ": damaged or cut short, expected a triangle mesh");
-  MeshJoiner joiner(file);
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) joiner.add(*scene->mMeshes[m]);
-  if (joiner.mesh.triangles.empty()) throw InputError(file.string() + ": holds no triangle, expected a triangle mesh");
-  if (signed_volume(joiner.mesh) < 0) {
-    for (auto& triangle : joiner.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  constexpr std::uintmax_t largest = std::uintmax_t{512} << 20U;
+  std::string kind = file.extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  const auto read = kind == ".obj" ? read_obj : kind == ".ply" ? read_ply : kind == ".stl" ? read_stl : nullptr;
+  if (read == nullptr) {
+    throw InputError(file.string() + ": has the extension " + in_quotes(kind) + ", expected .obj, .ply or .stl");
   }
-  return std::move(joiner.mesh);
+  TriangleMesh mesh = joined(read(read_file(file, largest, "a triangle mesh"), file));
+  if (mesh.triangles.empty()) throw InputError(file.string() + ": holds no triangle, expected a triangle mesh");
+  if (signed_volume(mesh) < 0) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
 }
 
 void require_closed(const TriangleMesh& mesh, const std::string& place) {

@@ -1,4 +1,4 @@
-// Triangle meshes from files: OBJ, PLY and STL through assimp, joined, checked, and refused where they are not closed.
+// Triangle meshes from files: OBJ, PLY and STL, joined, checked, and refused where they are not closed.
 #pragma once
 
 #include <filesystem>

@@ -1,0 +1,114 @@
+// Off costs nothing: what a scene does not need is not planned, not allocated and not run.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "sim/core/passes.h"
+
+using namespace curlew;
+
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.particle_radius = 0.025;
+  scene.domain.max = {0.6, 0.6, 0.6};
+  scene.fluid.push_back({Box{{0, 0, 0}, {0.4, 0.4, 0.4}}, {}});
+  return scene;
+}
+
+bool planned(const Plan& plan, std::string_view name) {
+  return std::any_of(plan.step.begin(), plan.step.end(), [&](const Pass* pass) { return pass->name == name; });
+}
+
+std::vector<std::string_view> names(const Plan& plan) {
+  std::vector<std::string_view> all;
+  for (const Pass* pass : plan.step) all.push_back(pass->name);
+  return all;
+}
+
+// Bytes and sweeps of ten steps.
+struct Cost {
+  std::size_t bytes;
+  std::uint64_t sweeps, pair_visits;
+  bool operator==(const Cost&) const = default;
+};
+
+Cost cost_of(const Scene& scene, FieldSet demanded = {}) {
+  World world = make_world(scene);
+  const Plan plan = make_plan(world, demanded);
+  prepare(world, plan);
+  for (int k = 0; k < 10; ++k) step(world, plan);
+  return {allocated_bytes(world), world.work.sweeps, world.work.pair_visits};
+}
+
+}  // namespace
+
+TEST_CASE("a plain scene plans the plain solver", "[plan]") {
+  const World world = make_world(small_scene());
+  const Plan plan = make_plan(world);
+  CHECK(names(plan) == std::vector<std::string_view>{"divergence_solve", "gravity", "time_step", "apply_forces",
+                                                     "density_solve", "advect", "sort", "neighbours", "boundary",
+                                                     "density"});
+  CHECK_FALSE(plan.fields.has(FieldId::vorticity));
+  CHECK_FALSE(plan.fields.has(FieldId::pressure));
+  CHECK_FALSE(plan.fields.has(FieldId::boundary_friction));
+}
+
+TEST_CASE("switches bring their passes and fields, and only theirs", "[plan]") {
+  Scene scene = small_scene();
+  scene.parameters.viscosity.nu = 0.01;
+  CHECK(planned(make_plan(make_world(scene)), "viscosity"));
+  CHECK_FALSE(make_plan(make_world(scene)).fields.has(FieldId::boundary_friction));
+  scene.domain.walls[2].kind = WallKind::no_slip;
+  CHECK(make_plan(make_world(scene)).fields.has(FieldId::boundary_friction));
+  scene.parameters.viscosity.nu = 0;
+  CHECK_FALSE(planned(make_plan(make_world(scene)), "viscosity"));
+  CHECK_FALSE(make_plan(make_world(scene)).fields.has(FieldId::boundary_friction));
+  scene.parameters.micropolar.gamma = 0.1;
+  CHECK(planned(make_plan(make_world(scene)), "xsph"));
+  scene.parameters.pressure.max_divergence_iterations = 0;
+  CHECK_FALSE(planned(make_plan(make_world(scene)), "divergence_solve"));
+  CHECK_FALSE(planned(make_plan(make_world(scene)), "outflow"));
+  scene.domain.walls[3].kind = WallKind::open;
+  CHECK(planned(make_plan(make_world(scene)), "outflow"));
+}
+
+TEST_CASE("without walls and bodies there is no boundary pass", "[plan]") {
+  Scene scene = small_scene();
+  for (Wall& wall : scene.domain.walls) wall.kind = WallKind::open;
+  const Plan plan = make_plan(make_world(scene));
+  CHECK_FALSE(planned(plan, "boundary"));
+  CHECK_FALSE(plan.fields.has(FieldId::boundary_gradient));
+}
+
+TEST_CASE("diagnostics run only where somebody asks for them", "[plan]") {
+  const World world = make_world(small_scene());
+  CHECK(planned(make_plan(world, {FieldId::vorticity}), "vorticity"));
+  CHECK(planned(make_plan(world, {FieldId::pressure}), "pressure"));
+  CHECK_FALSE(planned(make_plan(world, {FieldId::density}), "vorticity"));
+}
+
+TEST_CASE("what is off costs no byte and no sweep", "[plan]") {
+  const Scene plain = small_scene();
+  Scene zeroed = plain;
+  zeroed.parameters.viscosity.nu = 0;
+  zeroed.parameters.micropolar.gamma = 0;
+  CHECK(cost_of(zeroed) == cost_of(plain));
+  // The counters are alive: what is on costs something.
+  Scene viscous = plain;
+  viscous.parameters.viscosity.nu = 1e-6;
+  CHECK(cost_of(viscous).sweeps >= cost_of(plain).sweeps + 10);
+  CHECK(cost_of(plain, {FieldId::vorticity}).bytes > cost_of(plain).bytes);
+}
+
+TEST_CASE("a pass touches only fields that exist", "[plan]") {
+  Scene scene = small_scene();
+  World world = make_world(scene);
+  const Plan plan = make_plan(world);
+  prepare(world, plan);
+  for_each_field(world.fields, [&](const FieldRow& row, const auto& array) {
+    INFO(row.name);
+    const bool expected = row.kind == FieldKind::kept || plan.fields.has(row.id);
+    CHECK(array.size() == (expected ? world.count : 0));
+  });
+}
