@@ -35,6 +35,14 @@ struct Start {
   std::optional<std::array<double, 2>> colour_range;
 };
 
+// The folder of the run that a checkpoint belongs to, where it lies in RUN/checkpoints/; else empty.
+std::string run_of(const std::filesystem::path& checkpoint) {
+  const bool bare = !checkpoint.has_parent_path();
+  const std::filesystem::path holder = bare ? std::filesystem::current_path() : checkpoint.parent_path();
+  if (holder.filename() != "checkpoints") return "";
+  return holder.has_parent_path() ? holder.parent_path().string() : ".";
+}
+
 // What the checkpoint holds may be said again, but not otherwise.
 void check_same(const RunOptions& options, const Checkpoint& checkpoint) {
   using std::filesystem::path;
@@ -114,11 +122,9 @@ class Run {
  private:
   std::string choose_folder() const {
     namespace fs = std::filesystem;
-    // The run that is resumed: a checkpoint lies in RUN/checkpoints/.
-    const fs::path holder = resumed_ ? fs::absolute(options_.resume).parent_path() : fs::path();
-    const fs::path own = holder.filename() == "checkpoints" ? holder.parent_path() : fs::path();
+    const std::string own = resumed_ ? run_of(options_.resume) : "";
     const std::string folder = !options_.out.empty() ? options_.out
-                               : !own.empty()        ? own.string()
+                               : !own.empty()        ? own
                                                      : "out/" + world_.scene.file.stem().string();
     std::error_code ignored;
     if (!own.empty() && fs::equivalent(folder, own, ignored)) {

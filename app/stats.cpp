@@ -20,6 +20,10 @@ std::uint64_t written_hash(const Pass& pass, const Fields& fields) {
   return array_hash(std::as_bytes(std::span(hashes)));
 }
 
+// Whether a pass has a column of what it takes from the kinetic energy. All of them together take what is lost: walls take
+// in advect, an open face takes with the particles.
+bool may_lose(const Pass& pass) { return pass.writes.has(FieldId::velocity); }
+
 std::string text(double value) { return number_text(value); }
 std::string text(std::int64_t value) { return std::to_string(value); }
 
@@ -49,7 +53,7 @@ std::vector<std::string> StepRecorder::columns(const Plan& plan) const {
       names.emplace_back(name);
     }
     for (const Pass* pass : plan.step) {
-      if (pass->changes_velocity) names.push_back("loss_" + std::string(pass->name));
+      if (may_lose(*pass)) names.push_back("loss_" + std::string(pass->name));
     }
   }
   names.emplace_back("state_hash");
@@ -64,7 +68,7 @@ void StepRecorder::after(const Pass& pass, const World& world, double millisecon
   const std::size_t k = place_of(passes_, pass);
   pass_ms_[k] = milliseconds;
   total_ms_[k] += milliseconds;
-  if (settings_.full_columns && pass.changes_velocity) {
+  if (settings_.full_columns && may_lose(pass)) {
     const double now = kinetic_energy(world);
     loss_[k] = kinetic_ - now;
     kinetic_ = now;
@@ -99,7 +103,7 @@ void StepRecorder::write_row(const World& world, bool last) {
       cells.push_back(text(value));
     }
     for (std::size_t k = 0; k < passes_.size(); ++k) {
-      if (passes_[k]->changes_velocity) cells.push_back(text(loss_[k]));
+      if (may_lose(*passes_[k])) cells.push_back(text(loss_[k]));
     }
   }
   cells.push_back(last || settings_.full_columns ? hash_text(state_hash(world.fields)) : "");

@@ -34,6 +34,9 @@ namespace curlew {
   FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                  \
         "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                \
   FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")        \
+  FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")    \
+  FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                      \
+  FIELD(displacement, Vec3, "m", scratch, "Moves that are not velocity: density correction and shifting in filled domains.") \
   FIELD(packed, Vec3, "m", scratch, "Position with the pressure iterate in w: one load per neighbour.")             \
   FIELD(source, float, "kg/m^3", scratch, "Compression that a solve has to remove.")                                \
   FIELD(iterate, float, "m^5/(kg s^2)", scratch, "Last iterate of a pressure solve, before momentum.")              \

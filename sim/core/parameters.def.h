@@ -32,6 +32,8 @@
   FLAG(two_sided, false, "", live,                                                                                   \
        "Both signs of pressure where the neighbourhood is full, and density measured against its mean: for domains " \
        "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                            \
+  REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                           \
+       "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")   \
   CHOICE(solver, accelerated, "", live,                                                                              \
          "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum "\
          "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.", jacobi, accelerated)
@@ -53,7 +55,7 @@
        "refers.")
 
 #define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
-  REAL(cfl, 0.4, 0.1, 1.0, 0.01, 10.0, "1", "", live, "Farthest that a particle may move in a step, in particle "    \
+  REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live, "Farthest that a particle may move in a step, in particle "    \
        "spacings (Monaghan 1992).")                                                                                  \
   REAL(acceleration_factor, 0.25, 0.05, 1.0, 0.01, 10.0, "1", "", live,                                              \
        "Step limit from acceleration: factor times sqrt(d / |a|) (Monaghan 1992).")                                  \

@@ -18,6 +18,8 @@ using enum FieldId;
 bool always(const World&) { return true; }
 bool has_boundary(const World& w) { return w.has_boundary(); }
 bool solves_divergence(const World& w) { return w.parameters().pressure.max_divergence_iterations > 0; }
+bool is_filled(const World& w) { return w.parameters().pressure.two_sided; }
+bool shifts_particles(const World& w) { return is_filled(w) && w.parameters().pressure.shifting > 0; }
 bool has_open_face(const World& w) {
   const Domain& domain = w.scene.domain;
   for (int axis = 0; axis < w.scene.dimension; ++axis) {
@@ -32,8 +34,9 @@ bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 constexpr FieldSet particle_state = FieldSet::kept();
 constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction};
 constexpr FieldSet solver_space{packed, acceleration, source, iterate};
+constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed};
 constexpr FieldSet solver_input =
-    FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space;
+    FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space | filled_fields;
 
 constexpr Pass passes[] = {
     // At the positions that the last step left, with the step that it took:
@@ -52,9 +55,12 @@ constexpr Pass passes[] = {
      .wanted = uses_xsph, .run = xsph, .changes_velocity = true},
     // Constant density at the positions to come:
     {.name = "density_solve", .reads = solver_input | FieldSet{density_stiffness},
-     .writes = FieldSet{velocity, density_stiffness} | solver_space,
+     .writes = FieldSet{velocity, density_stiffness, displacement} | solver_space,
      .wanted = always, .run = density_solve, .changes_velocity = true},
-    {.name = "advect", .reads = {position, velocity}, .writes = {position}, .wanted = always, .run = advect},
+    {.name = "shift", .reads = {position, velocity, density, boundary_gradient},
+     .writes = {position, velocity, acceleration, packed}, .wanted = shifts_particles, .run = shift_particles},
+    {.name = "advect", .reads = {position, velocity, displacement}, .writes = {position, velocity}, .wanted = always,
+     .run = advect},
     {.name = "outflow", .reads = particle_state, .writes = particle_state, .wanted = has_open_face,
      .run = remove_escaped},
     // The new positions:
@@ -65,6 +71,8 @@ constexpr Pass passes[] = {
      .writes = boundary_fields | FieldSet{neighbour_number}, .wanted = has_boundary, .run = boundary_sums},
     {.name = "density", .reads = {position, boundary_gradient, neighbour_number},
      .writes = {density, diagonal, neighbour_number}, .wanted = always, .run = compute_density},
+    {.name = "gradient_correction", .reads = {position, density}, .writes = {correction_diagonal, correction_mixed},
+     .wanted = is_filled, .run = gradient_correction},
     // Only for those who ask:
     {.name = "pressure", .reads = {density, density_stiffness, divergence_stiffness}, .writes = {pressure},
      .wanted = always, .run = total_pressure},
@@ -77,6 +85,7 @@ bool moves_or_forces(const Pass& pass) { return pass.changes_velocity || pass.wr
 // Fields that a pass touches but that this world has no use for.
 FieldSet unused_fields(const World& world) {
   FieldSet unused;
+  if (!is_filled(world)) unused = unused | filled_fields;
   if (!world.has_boundary()) unused = unused | boundary_fields;
   if (!is_viscous(world) || !(world.walls.any_no_slip() || world.bodies.any_no_slip())) {
     unused = unused | FieldSet{boundary_friction};

@@ -131,7 +131,8 @@ class ExpressionParser {
     peek();
     std::size_t end = at_;
     while (end < text_.size() && is_letter(text_[end])) ++end;
-    const std::string found = at_ == text_.size() ? "the end" : in_quotes(text_.substr(at_, std::max(end, at_ + 1) - at_));
+    const std::string found =
+        at_ == text_.size() ? "the end" : in_quotes(text_.substr(at_, std::max(end, at_ + 1) - at_));
     throw InputError(place_ + ": column " + std::to_string(at_ + 1) + ": found " + found + ", expected " + expected);
   }
 
@@ -140,8 +141,9 @@ class ExpressionParser {
     Op op;
     int arguments;
   };
-  static constexpr Function functions[] = {{"sin", Op::sin, 1}, {"cos", Op::cos, 1}, {"exp", Op::exp, 1}, {"sqrt", Op::sqrt, 1},
-                                           {"abs", Op::abs, 1}, {"min", Op::min, 2}, {"max", Op::max, 2}};
+  static constexpr Function functions[] = {{"sin", Op::sin, 1},   {"cos", Op::cos, 1}, {"exp", Op::exp, 1},
+                                           {"sqrt", Op::sqrt, 1}, {"abs", Op::abs, 1}, {"min", Op::min, 2},
+                                           {"max", Op::max, 2}};
 
   std::string_view text_;
   int dimension_;
@@ -160,10 +162,17 @@ double Expression::operator()(double x, double z) const {
   std::size_t top = 0;  // numbers on the stack
   for (const auto& [op, value] : program_) {
     switch (op) {
-      case Op::number: stack[top++] = value; continue;
-      case Op::x: stack[top++] = x; continue;
-      case Op::z: stack[top++] = z; continue;
-      default: break;
+      case Op::number:
+        stack[top++] = value;
+        continue;
+      case Op::x:
+        stack[top++] = x;
+        continue;
+      case Op::z:
+        stack[top++] = z;
+        continue;
+      default:
+        break;
     }
     if (op >= Op::negate && op <= Op::abs) {
       double& a = stack[top - 1];

@@ -112,7 +112,8 @@ double distance_to_heightfield(const Heightfield& field, Vec3d p, int dimension)
   const double dz = field.rows > 1 ? (field.max.z - field.min.z) / (field.rows - 1) : 1;
   const double top = std::min(height_at(field, p.x, p.z), field.max.y);
   const double slope_x = (height_at(field, p.x + dx, p.z) - height_at(field, p.x - dx, p.z)) / (2 * dx);
-  const double slope_z = dimension == 3 ? (height_at(field, p.x, p.z + dz) - height_at(field, p.x, p.z - dz)) / (2 * dz) : 0;
+  const double slope_z =
+      dimension == 3 ? (height_at(field, p.x, p.z + dz) - height_at(field, p.x, p.z - dz)) / (2 * dz) : 0;
   const double above = (p.y - top) / std::sqrt(1 + slope_x * slope_x + slope_z * slope_z);
   double outside = 0, deepest = above;  // beyond the sides and the floor: like a box
   const auto side = [&](double beyond) {

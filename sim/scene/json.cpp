@@ -136,11 +136,14 @@ class TreeBuilder : public Sax {
 
 std::string scalar_text(const JsonNode& node) {
   switch (node.type) {
-    case JsonNode::Type::flag: return node.flag ? "true" : "false";
-    case JsonNode::Type::number: return number_text(node.number);
+    case JsonNode::Type::flag:
+      return node.flag ? "true" : "false";
+    case JsonNode::Type::number:
+      return number_text(node.number);
     case JsonNode::Type::text:
       return nlohmann::json(node.text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    default: return "null";
+    default:
+      return "null";
   }
 }
 

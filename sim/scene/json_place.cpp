@@ -14,19 +14,26 @@ using Type = JsonNode::Type;
 
 std::string described(const JsonNode& node) {
   switch (node.type) {
-    case Type::null: return "null";
-    case Type::flag: return node.flag ? "true" : "false";
-    case Type::number: return plain_number(node.number);
-    case Type::text: return in_quotes(node.text);
-    case Type::object: return "an object";
-    case Type::array: break;
+    case Type::null:
+      return "null";
+    case Type::flag:
+      return node.flag ? "true" : "false";
+    case Type::number:
+      return plain_number(node.number);
+    case Type::text:
+      return in_quotes(node.text);
+    case Type::object:
+      return "an object";
+    case Type::array:
+      break;
   }
   return "an array of " + std::to_string(node.items.size()) + " values";
 }
 
 // A key as it stands in a path: what would spoil a message is shortened and quoted.
 std::string key_text(std::string_view key) {
-  const bool plain = key.size() <= 40 && std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < 0x7F; });
+  const bool plain =
+      key.size() <= 40 && std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c < 0x7F; });
   return plain && !key.empty() ? std::string(key) : in_quotes(key);
 }
 

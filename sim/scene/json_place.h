@@ -37,7 +37,7 @@ class JsonPlace {
   double positive(double max) const;
   bool flag() const;
   const std::string& text() const;
-  Vec3d vector(int count) const;                                   // components up to 1e6 in size
+  Vec3d vector(int count) const;                                      // components up to 1e6 in size
   std::size_t one_of(std::span<const std::string_view> names) const;  // index of the name
 
   // "FILE: PATH is FOUND, expected EXPECTED".

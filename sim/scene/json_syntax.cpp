@@ -14,7 +14,9 @@ struct Token {
   bool whole = true;  // false for a string without its end
 };
 
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.' || c == '_'; }
+bool in_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.' || c == '_';
+}
 
 // First byte from `at` on that is neither blank nor comment.
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
@@ -47,8 +49,8 @@ Token token_at(std::string_view text, std::size_t begin) {
   return {begin, std::max(end, begin + std::max<std::size_t>(utf8_length(text, begin), 1))};
 }
 
-// The token that holds the byte, or the last before it; at the end an empty one. `before` is the first byte of the token
-// in front of it, 0 where there is none.
+// The token that holds the byte, or the last before it; at the end an empty one. `before` is the first byte of the
+// token in front of it, 0 where there is none.
 Token find_token(std::string_view text, std::size_t byte, char& before) {
   Token token{text.size(), text.size()};
   before = '\0';

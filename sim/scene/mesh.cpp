@@ -76,7 +76,8 @@ Vec3d rotated(Vec3d p, Vec3d degrees) {
 TriangleMesh load_mesh(const std::filesystem::path& file) {
   constexpr std::uintmax_t largest = std::uintmax_t{512} << 20U;
   std::string kind = file.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
   const auto read = kind == ".obj" ? read_obj : kind == ".ply" ? read_ply : kind == ".stl" ? read_stl : nullptr;
   if (read == nullptr) {
     throw InputError(file.string() + ": has the extension " + in_quotes(kind) + ", expected .obj, .ply or .stl");

@@ -33,7 +33,8 @@ double distance_to_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
   const Vec3d normal = cross(b - a, c - a);
   const double square = dot(normal, normal);
   const auto left_of = [&](Vec3d u, Vec3d v) { return dot(cross(v - u, p - u), normal) >= 0; };
-  if (square > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) return std::abs(dot(p - a, normal)) / std::sqrt(square);
+  if (square > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a))
+    return std::abs(dot(p - a, normal)) / std::sqrt(square);
   return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }
 
@@ -71,7 +72,8 @@ void MeshIndex::sort_triangles() {
       const int x1 = column(std::max({a.x, b.x, c.x}), 0), z1 = column(std::max({a.z, b.z, c.z}), 1);
       for (int z = column(std::min({a.z, b.z, c.z}), 1); z <= z1; ++z) {
         for (int x = column(std::min({a.x, b.x, c.x}), 0); x <= x1; ++x) {
-          const std::size_t at = static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_[0]) + static_cast<std::size_t>(x);
+          const std::size_t at =
+              static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_[0]) + static_cast<std::size_t>(x);
           if (place) {
             triangles_[begin_[at + 1]++] = t;
           } else {
@@ -111,7 +113,8 @@ double MeshIndex::distance(Vec3d p, double limit) const {
   double nearest = limit;
   for (int z = column(p.z - limit, 1); z <= column(p.z + limit, 1); ++z) {
     for (int x = column(p.x - limit, 0); x <= column(p.x + limit, 0); ++x) {
-      const std::size_t at = static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_[0]) + static_cast<std::size_t>(x);
+      const std::size_t at =
+          static_cast<std::size_t>(z) * static_cast<std::size_t>(columns_[0]) + static_cast<std::size_t>(x);
       for (std::uint32_t i = begin_[at]; i < begin_[at + 1]; ++i) {
         const auto& [ia, ib, ic] = mesh_->triangles[triangles_[i]];
         const Vec3d a = mesh_->vertices[ia], b = mesh_->vertices[ib], c = mesh_->vertices[ic];

@@ -1,5 +1,5 @@
-// Fast questions to a closed triangle mesh: is a point inside, and how far is its surface? The triangles are sorted into
-// columns along y over a grid in x and z, so that a question looks at a handful of them.
+// Fast questions to a closed triangle mesh: is a point inside, and how far is its surface? The triangles are sorted
+// into columns along y over a grid in x and z, so that a question looks at a handful of them.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class MeshIndex {
   Vec3d min_, max_;
   double cell_[2] = {1, 1};
   int columns_[2] = {1, 1};
-  std::vector<std::uint32_t> begin_;      // of each column in triangles_
+  std::vector<std::uint32_t> begin_;  // of each column in triangles_
   std::vector<std::uint32_t> triangles_;
 };
 

@@ -88,7 +88,8 @@ TriangleMesh read_obj(std::string_view text, const std::filesystem::path& file) 
         corners.push_back(obj_corner(reader, word, mesh.vertices.size()));
       }
       if (corners.size() < 3) reader.fail("", "three corners or more");
-      for (std::size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+      for (std::size_t k = 2; k < corners.size(); ++k)
+        mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
     }
   }
   return mesh;

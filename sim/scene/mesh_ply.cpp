@@ -1,5 +1,4 @@
 // PLY files: a header that declares elements and their properties, then the elements as text or as bytes.
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -22,8 +21,8 @@ Type type_of(std::string_view name) {
   struct Name {
     std::string_view old_name, new_name;
   };
-  static constexpr Name names[] = {{"char", "int8"},   {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
-                                   {"int", "int32"},   {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
+  static constexpr Name names[] = {{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
+                                   {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
   for (std::size_t k = 0; k < std::size(names); ++k) {
     if (name == names[k].old_name || name == names[k].new_name) return static_cast<Type>(k);
   }
@@ -47,8 +46,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
-Type read_type(TextReader& reader) {
-  const std::string_view word = reader.word();
+Type checked_type(const TextReader& reader, std::string_view word) {
   const Type type = type_of(word);
   if (type == Type::none) reader.fail(word, "a PLY number type such as float or int");
   return type;
@@ -57,13 +55,12 @@ Type read_type(TextReader& reader) {
 void read_property(TextReader& reader, Header& header) {
   if (header.elements.empty()) reader.fail("property", "an element before it");
   Property property;
-  const TextReader before = reader;
-  if (reader.word() == "list") {
-    property.length = read_type(reader);
-  } else {
-    reader = before;
+  std::string_view word = reader.word();
+  if (word == "list") {
+    property.length = checked_type(reader, reader.word());
+    word = reader.word();
   }
-  property.type = read_type(reader);
+  property.type = checked_type(reader, word);
   property.name = reader.word();
   header.elements.back().properties.push_back(std::move(property));
 }
@@ -74,7 +71,10 @@ Header read_header(TextReader& reader, const std::filesystem::path& file) {
   if (const std::string_view magic = reader.word(); magic != "ply") reader.fail(magic, "ply");
   while (reader.next_line()) {
     const std::string_view kind = reader.word();
-    if (kind == "end_header") return header;
+    if (kind == "end_header") {
+      if (const std::string_view more = reader.word(); !more.empty()) reader.fail(more, "the end of the line");
+      return header;
+    }
     if (kind == "format") {
       const std::string_view format = reader.word();
       if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian") {
@@ -122,20 +122,27 @@ class Values {
     static constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
     const std::size_t size = sizes[static_cast<std::size_t>(type)];
     if (text_.size() - at_ < size) cut_short(what);
-    std::array<char, 8> bytes{};
-    std::memcpy(bytes.data(), text_.data() + at_, size);
-    at_ += size;
     const bool swap = (format_ == Format::big) == (std::endian::native == std::endian::little);
-    if (swap) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    std::array<char, 8> bytes{};
+    for (std::size_t k = 0; k < size; ++k) bytes[k] = text_[at_ + (swap ? size - 1 - k : k)];
+    at_ += size;
     switch (type) {
-      case Type::int8: return value_of<std::int8_t>(bytes);
-      case Type::uint8: return value_of<std::uint8_t>(bytes);
-      case Type::int16: return value_of<std::int16_t>(bytes);
-      case Type::uint16: return value_of<std::uint16_t>(bytes);
-      case Type::int32: return value_of<std::int32_t>(bytes);
-      case Type::uint32: return value_of<std::uint32_t>(bytes);
-      case Type::float32: return value_of<float>(bytes);
-      default: return value_of<double>(bytes);
+      case Type::int8:
+        return value_of<std::int8_t>(bytes);
+      case Type::uint8:
+        return value_of<std::uint8_t>(bytes);
+      case Type::int16:
+        return value_of<std::int16_t>(bytes);
+      case Type::uint16:
+        return value_of<std::uint16_t>(bytes);
+      case Type::int32:
+        return value_of<std::int32_t>(bytes);
+      case Type::uint32:
+        return value_of<std::uint32_t>(bytes);
+      case Type::float32:
+        return value_of<float>(bytes);
+      default:
+        return value_of<double>(bytes);
     }
   }
 
@@ -158,7 +165,8 @@ class PlyMesh {
   void read(const Element& element, Values& values) {
     if (element.properties.empty()) return;
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      const std::string what = in_quotes(element.name) + " " + std::to_string(i) + " of " + std::to_string(element.count);
+      const std::string what =
+          in_quotes(element.name) + " " + std::to_string(i) + " of " + std::to_string(element.count);
       Vec3d place;
       for (const Property& property : element.properties) {
         if (property.length != Type::none) {
@@ -217,7 +225,6 @@ class PlyMesh {
 TriangleMesh read_ply(std::string_view text, const std::filesystem::path& file) {
   TextReader reader(text, file);
   const Header header = read_header(reader, file);
-  // A text body begins on the next line: what else stands behind end_header is not looked at.
   Values values(text, reader, header.format, file);
   PlyMesh mesh(file);
   for (const Element& element : header.elements) mesh.read(element, values);

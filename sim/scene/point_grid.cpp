@@ -59,7 +59,9 @@ bool PointGrid::any_within(Vec3d p, double radius) const {
   for (int axis = 0; axis < 3; ++axis) {
     if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
     const double width = domain_.max[axis] - domain_.min[axis];
-    const double shift = p[axis] < domain_.min[axis] + radius ? width : p[axis] > domain_.max[axis] - radius ? -width : 0;
+    const double shift = p[axis] < domain_.min[axis] + radius   ? width
+                         : p[axis] > domain_.max[axis] - radius ? -width
+                                                                : 0;
     if (shift == 0) continue;
     for (std::size_t i = 0; i < count; ++i) {
       images[count + i] = images[i];

@@ -72,7 +72,8 @@ Heightfield read_heightfield(const JsonPlace& place, int dimension) {
   place.allow({"file", "formula", "min", "max"});
   const auto file = place.find("file"), formula = place.find("formula");
   if (file.has_value() == formula.has_value()) {
-    place.fail(std::string("has ") + (file ? "both \"file\" and" : "neither \"file\" nor") + " \"formula\", expected one of them");
+    place.fail(std::string("has ") + (file ? "both \"file\" and" : "neither \"file\" nor") +
+               " \"formula\", expected one of them");
   }
   Heightfield field;
   const Box box = read_corners(place, dimension);
@@ -115,17 +116,23 @@ Shape read_shape(const JsonPlace& place, std::initializer_list<std::string_view>
     if (place.find(shape_keys[k])) found.push_back(k);
   }
   if (found.size() != 1) {
-    place.fail("has " + (found.empty() ? "no shape" : std::to_string(found.size()) + " shapes") +
-               ", expected one of " + joined_names(shape_keys, "or"));
+    place.fail("has " + (found.empty() ? "no shape" : std::to_string(found.size()) + " shapes") + ", expected one of " +
+               joined_names(shape_keys, "or"));
   }
   const JsonPlace shape = place.at(shape_keys[found[0]]);
   switch (found[0]) {
-    case 0: return read_box(shape, dimension);
-    case 1: return read_sphere(shape, dimension);
-    case 2: return read_cylinder(shape, dimension);
-    case 3: return read_plane(shape, dimension);
-    case 4: return read_mesh(shape, dimension);
-    default: return read_heightfield(shape, dimension);
+    case 0:
+      return read_box(shape, dimension);
+    case 1:
+      return read_sphere(shape, dimension);
+    case 2:
+      return read_cylinder(shape, dimension);
+    case 3:
+      return read_plane(shape, dimension);
+    case 4:
+      return read_mesh(shape, dimension);
+    default:
+      return read_heightfield(shape, dimension);
   }
 }
 

@@ -25,9 +25,11 @@ Wall read_wall(const JsonPlace& place, int axis, int dimension) {
   if (!bare) place.allow({"kind", "velocity"});
   wall.kind = static_cast<WallKind>((bare ? place : place.at("kind")).one_of(wall_kind_names()));
   if (const auto velocity = place.find("velocity")) {
-    if (wall.kind != WallKind::no_slip) velocity->fail("stands at a wall that does not drag, expected \"kind\": \"no-slip\"");
+    if (wall.kind != WallKind::no_slip)
+      velocity->fail("stands at a wall that does not drag, expected \"kind\": \"no-slip\"");
     wall.velocity = velocity->vector(dimension);
-    if (wall.velocity[axis] != 0) velocity->fail("points through the wall, expected " + std::string(1, "xyz"[axis]) + " = 0");
+    if (wall.velocity[axis] != 0)
+      velocity->fail("points through the wall, expected " + std::string(1, "xyz"[axis]) + " = 0");
   }
   return wall;
 }
@@ -142,8 +144,9 @@ Parameters read_parameters(const JsonPlace& place) {
     const std::string& key = place.node().keys[i];
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string near = nearest_name(key, keys);
-    place.fail("has the unknown key " + in_quotes(key) +
-               (near.empty() ? ", expected a parameter that `curlew params` lists" : "; did you mean \"" + near + "\"?"));
+    place.fail(
+        "has the unknown key " + in_quotes(key) +
+        (near.empty() ? ", expected a parameter that `curlew params` lists" : "; did you mean \"" + near + "\"?"));
   }
   Parameters parameters;
   for (const ParameterRow& row : parameter_table()) {
@@ -179,12 +182,14 @@ Look read_look(const JsonPlace& place) {
   if (const auto background = place.find("background")) look.background = read_name(*background, backgrounds);
   if (const auto range = place.find("range")) {
     const Vec3d ends = range->vector(2);
-    if (ends.x >= ends.y) range->fail("begins at " + plain_number(ends.x) + " and ends at " + plain_number(ends.y) +
-                                      ", expected an end above the beginning");
+    if (ends.x >= ends.y)
+      range->fail("begins at " + plain_number(ends.x) + " and ends at " + plain_number(ends.y) +
+                  ", expected an end above the beginning");
     look.range = {ends.x, ends.y};
   }
-  for (const auto& [key, flag] : {std::pair{"show_walls", &Look::show_walls}, std::pair{"show_legend", &Look::show_legend},
-                                  std::pair{"show_floor", &Look::show_floor}}) {
+  for (const auto& [key, flag] :
+       {std::pair{"show_walls", &Look::show_walls}, std::pair{"show_legend", &Look::show_legend},
+        std::pair{"show_floor", &Look::show_floor}}) {
     if (const auto value = place.find(key)) look.*flag = value->flag();
   }
   return look;
@@ -199,7 +204,8 @@ void check_keys(const JsonPlace& root) {
   root.allow({"curlew", "name", "about", "dimension", "particle_radius", "gravity", "domain", "fluid", "bodies",
               "parameters", "camera", "look"});
   const JsonPlace version = root.at("curlew");
-  if (version.node().type != JsonNode::Type::number || version.node().number != 1) version.expected("1, the format's version");
+  if (version.node().type != JsonNode::Type::number || version.node().number != 1)
+    version.expected("1, the format's version");
 }
 
 }  // namespace

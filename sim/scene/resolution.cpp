@@ -35,8 +35,9 @@ double fluid_volume(const Scene& scene) {
 void check_size(const Scene& scene, double memory) {
   const double particles = estimate_particles(scene), need = estimate_memory(scene);
   const auto fail = [&](const std::string& what) {
-    throw InputError(scene.file.string() + ": particle_radius " + plain_number(scene.particle_radius) + " m makes about " +
-                     about(particles) + " particles, " + what + ", expected a larger particle_radius");
+    throw InputError(scene.file.string() + ": particle_radius " + plain_number(scene.particle_radius) +
+                     " m makes about " + about(particles) + " particles, " + what +
+                     ", expected a larger particle_radius");
   };
   if (need > memory) {
     fail("which with their boundary need about " + bytes_text(need) + " of memory where this machine has " +
@@ -60,7 +61,8 @@ void check_precision(const Scene& scene) {
 void check_periodic(const Scene& scene, int axis) {
   const double width = scene.domain.max[axis] - scene.domain.min[axis], d = scene.spacing();
   const double least = 4 * 2 * scene.parameters.sph.h_over_d * d;
-  const std::string place = scene.file.string() + ": the periodic axis " + "xyz"[axis] + " is " + plain_number(width) + " m wide";
+  const std::string place =
+      scene.file.string() + ": the periodic axis " + "xyz"[axis] + " is " + plain_number(width) + " m wide";
   if (width < least * (1 - 1e-9)) {
     throw InputError(place + ", expected at least 4 kernel supports, which are " + plain_number(least) + " m");
   }
@@ -71,7 +73,8 @@ void check_periodic(const Scene& scene, int axis) {
   }
 }
 
-// The edge that the spacing is to divide: the shortest periodic width, else the shortest edge of the first box of fluid.
+// The edge that the spacing is to divide: the shortest periodic width, else the shortest edge of the first box of
+// fluid.
 std::optional<double> edge_to_divide(const Scene& scene) {
   std::optional<double> edge;
   const auto take = [&](const Box& box, bool only_periodic) {
@@ -123,7 +126,9 @@ double estimate_memory(const Scene& scene) {
          bytes_a_sample * area / std::pow(scene.spacing(), scene.dimension - 1);
 }
 
-double machine_memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)); }
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
 
 void check_resolution(const Scene& scene) { check_resolution(scene, machine_memory()); }
 
@@ -137,10 +142,12 @@ void check_resolution(const Scene& scene, double memory_of_machine) {
 
 Scene with_particles(Scene scene, double n) {
   if (!(n >= 1 && n <= most_particles)) {
-    throw InputError("--particles is " + plain_number(n) + ", expected a number from 1 to " + plain_number(most_particles));
+    throw InputError("--particles is " + plain_number(n) + ", expected a number from 1 to " +
+                     plain_number(most_particles));
   }
   const double d = std::pow(fluid_volume(scene) / n, 1.0 / scene.dimension);
-  if (!(d > 0)) throw InputError(scene.file.string() + ": the fluid has no volume, expected some to fill with particles");
+  if (!(d > 0))
+    throw InputError(scene.file.string() + ": the fluid has no volume, expected some to fill with particles");
   double best_miss = 0, best_radius = 0;
   std::string refusal;
   for (const double spacing : candidate_spacings(edge_to_divide(scene), d)) {
@@ -157,9 +164,10 @@ Scene with_particles(Scene scene, double n) {
     }
   }
   if (best_radius == 0) {
-    throw InputError(refusal.empty() ? scene.file.string() + ": no spacing near " + about(n) +
-                                           " particles divides all periodic widths, expected widths in small whole ratios"
-                                     : refusal);
+    throw InputError(refusal.empty()
+                         ? scene.file.string() + ": no spacing near " + about(n) +
+                               " particles divides all periodic widths, expected widths in small whole ratios"
+                         : refusal);
   }
   scene.particle_radius = best_radius;
   return scene;

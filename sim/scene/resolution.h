@@ -7,8 +7,8 @@
 
 namespace curlew {
 
-// Number of particles from the volumes of the fluids (a double: absurd scenes overflow integers). Exact to some per cent
-// for simple shapes; overlaps and bodies are not subtracted.
+// Number of particles from the volumes of the fluids (a double: absurd scenes overflow integers). Exact to some per
+// cent for simple shapes; overlaps and bodies are not subtracted.
 double estimate_particles(const Scene&);
 
 // Bytes that a run needs: 700 a particle and, while bodies are sampled, 1000 a body sample; estimated from

@@ -95,7 +95,8 @@ std::int64_t for_each_point(const Fluid& fluid, const Scene& scene, const FreeSp
 }
 
 bool any_periodic(const Scene& scene) {
-  return std::any_of(scene.domain.periodic.begin(), scene.domain.periodic.end(), [](bool periodic) { return periodic; });
+  return std::any_of(scene.domain.periodic.begin(), scene.domain.periodic.end(),
+                     [](bool periodic) { return periodic; });
 }
 
 Vec3d taylor_green(double speed, Vec3d p, const Scene& scene) {
@@ -113,10 +114,14 @@ Vec3d taylor_green(double speed, Vec3d p, const Scene& scene) {
 
 Vec3d initial_velocity(const InitialVelocity& field, Vec3d p, const Scene& scene) {
   switch (field.field) {
-    case InitialVelocity::Field::constant: return field.value;
-    case InitialVelocity::Field::taylor_green: return taylor_green(field.speed, p, scene);
-    case InitialVelocity::Field::rotation: return cross(field.rate, p - field.centre);
-    case InitialVelocity::Field::shear_wave: break;
+    case InitialVelocity::Field::constant:
+      return field.value;
+    case InitialVelocity::Field::taylor_green:
+      return taylor_green(field.speed, p, scene);
+    case InitialVelocity::Field::rotation:
+      return cross(field.rate, p - field.centre);
+    case InitialVelocity::Field::shear_wave:
+      break;
   }
   const double height = scene.domain.max.y - scene.domain.min.y;
   return {field.speed * std::sin(2 * std::numbers::pi * (p.y - scene.domain.min.y) / height), 0, 0};
@@ -141,7 +146,8 @@ ParticleSample sample_fluid(const Scene& scene) {
     };
     if (for_each_point(fluid, scene, space, take) == 0) {
       throw InputError(scene.file.string() + ": fluid[" + std::to_string(f) + "] (" +
-                       std::string(shape_name(fluid.shape)) + ") holds no particle, expected one at least: it may lie " +
+                       std::string(shape_name(fluid.shape)) +
+                       ") holds no particle, expected one at least: it may lie " +
                        "outside the domain, in a body or another fluid, or be smaller than the spacing of " +
                        plain_number(scene.spacing()) + " m");
     }
@@ -150,7 +156,8 @@ ParticleSample sample_fluid(const Scene& scene) {
 }
 
 std::int64_t count_particles(const Scene& scene) {
-  if (scene.fluid.size() > 1 || any_periodic(scene)) return static_cast<std::int64_t>(sample_fluid(scene).position.size());
+  if (scene.fluid.size() > 1 || any_periodic(scene))
+    return static_cast<std::int64_t>(sample_fluid(scene).position.size());
   check_resolution(scene);
   const FreeSpace space(scene);
   return for_each_point(scene.fluid.at(0), scene, space, [](Vec3d) { return true; });

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double edge_distance = 0.6;  // least distance of samples on sharp edges, in spacings
 constexpr double candidate_gap = 0.3;  // longest edge of a face piece that gives one candidate, in spacings
-// Least distance on faces, in spacings. Random packing at 0.78 leaves 1.05 to 1.16 samples per spacing squared and no place
-// farther than 0.85 spacings from one (tests/unit/sampling_surface.cpp). Passes with falling distances changed neither.
+// Least distance on faces, in spacings. Random packing at 0.78 leaves 1.05 to 1.16 samples per spacing squared and no
+// place farther than 0.85 spacings from one (tests/unit/sampling_surface.cpp). Passes with falling distances changed
+// neither.
 constexpr double face_distance = 0.78;
 
 // All three points beyond, or in, one face of the domain. Periodic faces are no walls.
@@ -24,7 +25,8 @@ bool behind_wall(std::span<const Vec3d> corners, const Domain& domain, int dimen
     const double slack = 1e-9 * (domain.max[axis] - domain.min[axis]);
     const auto low = [&](Vec3d p) { return p[axis] <= domain.min[axis] + slack; };
     const auto high = [&](Vec3d p) { return p[axis] >= domain.max[axis] - slack; };
-    if (std::all_of(corners.begin(), corners.end(), low) || std::all_of(corners.begin(), corners.end(), high)) return true;
+    if (std::all_of(corners.begin(), corners.end(), low) || std::all_of(corners.begin(), corners.end(), high))
+      return true;
   }
   return false;
 }
@@ -51,8 +53,8 @@ std::vector<std::pair<Vec3d, Vec3d>> sharp_edges(const TriangleMesh& mesh, const
   return sharp;
 }
 
-// Halves the triangle across its longest edge until the pieces are small; their centres are the candidates. Pieces outside
-// the region are dropped early.
+// Halves the triangle across its longest edge until the pieces are small; their centres are the candidates. Pieces
+// outside the region are dropped early.
 void add_candidates(std::array<Vec3d, 3> corners, double gap, const Domain& region, std::vector<Vec3d>& candidates) {
   if (behind_wall(corners, region, 3)) return;
   std::size_t longest = 0;

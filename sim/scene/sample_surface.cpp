@@ -1,5 +1,5 @@
-// One even layer of samples on analytic surfaces: regular grids whose spacing divides each edge. Meshes and heightfields
-// are sampled in sample_mesh.cpp.
+// One even layer of samples on analytic surfaces: regular grids whose spacing divides each edge. Meshes and
+// heightfields are sampled in sample_mesh.cpp.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The number of parts into which a length is cut: nearest to the spacing, but never longer than 1.2 spacings; 0 where the
-// length is so short that its two ends are one place.
+// The number of parts into which a length is cut: nearest to the spacing, but never longer than 1.2 spacings; 0 where
+// the length is so short that its two ends are one place.
 int parts(double length, double spacing) {
   const double ratio = length / spacing;
   if (ratio < 0.6) return 0;
@@ -39,8 +39,10 @@ struct Sampler {
   std::pair<int, int> near_domain(double from, double to, int count, int axis) const {
     if (count == 0) return {0, 0};
     const double step = (to - from) / count;
-    const double begin = std::ceil((domain.min[axis] - 2 * d - from) / step), end = std::floor((domain.max[axis] + 2 * d - from) / step);
-    return {static_cast<int>(std::clamp(begin, 0.0, count + 1.0)), static_cast<int>(std::clamp(end, -1.0, count * 1.0))};
+    const double begin = std::ceil((domain.min[axis] - 2 * d - from) / step),
+                 end = std::floor((domain.max[axis] + 2 * d - from) / step);
+    return {static_cast<int>(std::clamp(begin, 0.0, count + 1.0)),
+            static_cast<int>(std::clamp(end, -1.0, count * 1.0))};
   }
 
   void operator()(const Box& b) {
@@ -97,7 +99,8 @@ struct Sampler {
       const Vec3d centre = c.from + (rows == 0 ? 0.5 : static_cast<double>(row) / rows) * whole;
       circle(centre, u, v, c.radius, row % 2 == 0 ? 0 : 0.5);
       if (row != 0 && row != rows) continue;
-      for (int ring = rings - 1; ring >= 1; --ring) circle(centre, u, v, c.radius * ring / rings, 0.5 * ((rings - ring) % 2));
+      for (int ring = rings - 1; ring >= 1; --ring)
+        circle(centre, u, v, c.radius * ring / rings, 0.5 * ((rings - ring) % 2));
       if (c.radius >= 0.6 * d) points.push_back(centre);
     }
   }

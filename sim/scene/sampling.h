@@ -1,5 +1,5 @@
-// From shapes to points: fluid particles on lattices, body surfaces as one even layer of samples. Deterministic: the same
-// scene gives the same points in the same order, bit for bit. Lengths in metres.
+// From shapes to points: fluid particles on lattices, body surfaces as one even layer of samples. Deterministic: the
+// same scene gives the same points in the same order, bit for bit. Lengths in metres.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ struct ParticleSample {
   std::vector<Vec3d> velocity;  // m/s
 };
 
-// The scene's fluid as particles on cubic lattices with the scene's spacing d = 2r. A lattice begins r inside the domain's
-// minimum, or r inside the shape's own minimum for boxes and heightfields, so that walls are at distance r and boxes fill
-// evenly. Left out are points outside the domain or nearer than r to a wall or a body, and points nearer than 0.7 d to
-// a particle of an earlier fluid. Ordered by fluid, then by x, y and z. Throws InputError as check_resolution does, and
-// where a fluid holds no particle.
+// The scene's fluid as particles on cubic lattices with the scene's spacing d = 2r. A lattice begins r inside the
+// domain's minimum, or r inside the shape's own minimum for boxes and heightfields, so that walls are at distance r and
+// boxes fill evenly. Left out are points outside the domain or nearer than r to a wall or a body, and points nearer
+// than 0.7 d to a particle of an earlier fluid. Ordered by fluid, then by x, y and z. Throws InputError as
+// check_resolution does, and where a fluid holds no particle.
 ParticleSample sample_fluid(const Scene&);
 
 // How many particles sample_fluid returns, without storing them where there is only one fluid.
@@ -27,9 +27,9 @@ std::int64_t count_particles(const Scene&);
 // The velocity (m/s) that an initial field has at p.
 Vec3d initial_velocity(const InitialVelocity&, Vec3d p, const Scene&);
 
-// One even layer of points on the shape's surface, in 2D its outline: about `spacing` apart, never nearer than 0.6 of it,
-// and no place of the surface farther than about 0.85 of it from a sample. Points beyond the domain by more than two
-// spacings are left out, and in periodic axes all beyond it.
+// One even layer of points on the shape's surface, in 2D its outline: about `spacing` apart, never nearer than 0.6 of
+// it, and no place of the surface farther than about 0.85 of it from a sample. Points beyond the domain by more than
+// two spacings are left out, and in periodic axes all beyond it.
 std::vector<Vec3d> sample_surface(const Shape&, double spacing, int dimension, const Domain&);
 
 }  // namespace curlew

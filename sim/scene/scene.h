@@ -40,13 +40,13 @@ struct Mesh {
   std::filesystem::path file;  // .obj, .ply or .stl; as written in the scene, relative to the scene file
   double scale = 1;
   Vec3d translation;
-  Vec3d rotation;  // degrees about x, then y, then z
+  Vec3d rotation;                            // degrees about x, then y, then z
   std::shared_ptr<const TriangleMesh> mesh;  // loaded, scaled, rotated, moved
 };
 struct Heightfield {
-  std::filesystem::path file;  // CSV grid of heights (rows along z, columns along x), or empty
-  std::string formula;         // or a formula of x and z, such as "0.2 + 0.05*cos(2*pi*x)"
-  Vec3d min, max;              // solid (or fluid) fills min.y up to the height, inside the box
+  std::filesystem::path file;   // CSV grid of heights (rows along z, columns along x), or empty
+  std::string formula;          // or a formula of x and z, such as "0.2 + 0.05*cos(2*pi*x)"
+  Vec3d min, max;               // solid (or fluid) fills min.y up to the height, inside the box
   std::vector<double> heights;  // sampled, row by row along z
   int columns = 0, rows = 0;
 };
@@ -71,10 +71,10 @@ struct Domain {
 struct InitialVelocity {
   enum class Field { constant, taylor_green, rotation, shear_wave };
   Field field = Field::constant;
-  Vec3d value;      // constant: the velocity
+  Vec3d value;       // constant: the velocity
   double speed = 1;  // taylor_green, shear_wave: amplitude, m/s, with one period across the domain
-  Vec3d centre;     // rotation: about this point
-  Vec3d rate;       // rotation: angular velocity, rad/s (in 2D only z)
+  Vec3d centre;      // rotation: about this point
+  Vec3d rate;        // rotation: angular velocity, rad/s (in 2D only z)
 };
 
 struct Fluid {
@@ -94,10 +94,10 @@ struct Camera {
 };
 
 struct Look {
-  std::string colour_by = "speed";  // a name of colour_fields(), see sim/core/frame.h
-  std::string colour_map = "water"; // a name of the renderer's colour maps
+  std::string colour_by = "speed";             // a name of colour_fields(), see sim/core/frame.h
+  std::string colour_map = "water";            // a name of the renderer's colour maps
   std::optional<std::array<double, 2>> range;  // of the colour scale; from the run's own data where absent
-  std::string background = "light";  // light or dark
+  std::string background = "light";            // light or dark
   bool show_walls = true, show_legend = true, show_floor = true;
 };
 

@@ -88,7 +88,8 @@ JsonNode with_shapes(const std::string& doc, std::vector<Property> others) {
 }
 
 JsonNode shape_definitions(JsonNode definitions) {
-  definitions.add("box", object_of("A box, in 2D a rectangle.", {{"min", reference("vector"), true}, {"max", reference("vector"), true}}));
+  definitions.add("box", object_of("A box, in 2D a rectangle.",
+                                   {{"min", reference("vector"), true}, {"max", reference("vector"), true}}));
   definitions.add("sphere", object_of("A sphere, in 2D a disc.",
                                       {{"centre", reference("vector"), true}, {"radius", positive_node("m"), true}}));
   definitions.add("cylinder", object_of("A cylinder between the centres of its ends; in 2D a strip with round ends.",
@@ -105,8 +106,9 @@ JsonNode shape_definitions(JsonNode definitions) {
   definitions.add("heightfield",
                   object_of("Fills its box from the bottom up to a height.",
                             {{"file", typed("string", "CSV of heights in metres: rows along z, columns along x.")},
-                             {"formula", typed("string", "Height in metres from x and z: numbers, + - * / ^, pi, sin, cos, "
-                                                         "exp, sqrt, abs, min, max.")},
+                             {"formula", typed("string",
+                                               "Height in metres from x and z: numbers, + - * / ^, pi, sin, cos, "
+                                               "exp, sqrt, abs, min, max.")},
                              {"min", reference("vector"), true},
                              {"max", reference("vector"), true}}));
   return definitions;
@@ -115,10 +117,11 @@ JsonNode shape_definitions(JsonNode definitions) {
 JsonNode definitions_node() {
   JsonNode definitions = JsonNode::object();
   definitions.add("vector", array_of(typed("number"), 2, 3, "As many numbers as the scene has dimensions."));
-  definitions.add("wall", any_of({one_of_names(wall_kind_names()),
-                                  object_of("A wall that may drag the fluid along.",
-                                            {{"kind", one_of_names(wall_kind_names()), true},
-                                             {"velocity", reference("vector", "Tangential, m/s; with no-slip only.")}})}));
+  definitions.add("wall",
+                  any_of({one_of_names(wall_kind_names()),
+                          object_of("A wall that may drag the fluid along.",
+                                    {{"kind", one_of_names(wall_kind_names()), true},
+                                     {"velocity", reference("vector", "Tangential, m/s; with no-slip only.")}})}));
   JsonNode rate = any_of({vector3("3D"), number_node("2D")});
   definitions.add(
       "velocity",
@@ -176,14 +179,15 @@ JsonNode camera_node() {
 JsonNode look_node() {
   std::vector<std::string_view> fields;
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
-  return object_of("What the picture shows.",
-                   {{"colour_by", one_of_names(fields, "Field that colours the particles.")},
-                    {"colour_map", one_of_names(colour_map_names())},
-                    {"range", array_of(typed("number"), 2, 2, "Ends of the colour scale; from the run's data where absent.")},
-                    {"background", one_of_names(std::vector<std::string_view>{"light", "dark"})},
-                    {"show_walls", typed("boolean")},
-                    {"show_legend", typed("boolean")},
-                    {"show_floor", typed("boolean")}});
+  return object_of(
+      "What the picture shows.",
+      {{"colour_by", one_of_names(fields, "Field that colours the particles.")},
+       {"colour_map", one_of_names(colour_map_names())},
+       {"range", array_of(typed("number"), 2, 2, "Ends of the colour scale; from the run's data where absent.")},
+       {"background", one_of_names(std::vector<std::string_view>{"light", "dark"})},
+       {"show_walls", typed("boolean")},
+       {"show_legend", typed("boolean")},
+       {"show_floor", typed("boolean")}});
 }
 
 JsonNode constant(JsonNode value) {
@@ -214,10 +218,13 @@ std::string scene_schema() {
        {"particle_radius", std::move(radius)},
        {"gravity", reference("vector", "m/s^2; -9.81 along y where absent.")},
        {"domain", domain_node(), true},
-       {"fluid", array_of(with_shapes("A body of fluid.", {{"velocity", reference("velocity", "At the start, m/s.")}}), 1, 0,
-                          "What is fluid at the start."), true},
-       {"bodies", array_of(with_shapes("A solid at rest.", {{"name", typed("string")}, {"wall", one_of_names(body_walls)}}),
-                           0, 0, "Solids in the way of the fluid.")},
+       {"fluid",
+        array_of(with_shapes("A body of fluid.", {{"velocity", reference("velocity", "At the start, m/s.")}}), 1, 0,
+                 "What is fluid at the start."),
+        true},
+       {"bodies",
+        array_of(with_shapes("A solid at rest.", {{"name", typed("string")}, {"wall", one_of_names(body_walls)}}), 0, 0,
+                 "Solids in the way of the fluid.")},
        {"parameters", parameters_node()},
        {"camera", camera_node()},
        {"look", look_node()}});

@@ -70,28 +70,33 @@ Box whole_bounds(const Shape& shape, int dimension, const Domain& domain) {
     for (int axis = 0; axis < dimension; ++axis) std::tie(box.min[axis], box.max[axis]) = reach(axis);
   };
   using Range = std::pair<double, double>;
-  std::visit(Overload{[&](const Box& b) { box = b; },
-                      [&](const Sphere& s) {
-                        around([&](int k) { return Range{s.centre[k] - s.radius, s.centre[k] + s.radius}; });
-                      },
-                      [&](const Cylinder& c) {
-                        around([&](int k) {
-                          const double reach = cylinder_reach(c, k, dimension);
-                          return Range{std::min(c.from[k], c.to[k]) - reach, std::max(c.from[k], c.to[k]) + reach};
-                        });
-                      },
-                      [&](const Plane&) { box = {domain.min, domain.max}; },
-                      [&](const Mesh& m) {
-                        around([&](int k) {
-                          Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-                          for (const Vec3d& v : m.mesh->vertices) {
-                            range = {std::min(range.first, v[k]), std::max(range.second, v[k])};
-                          }
-                          return range;
-                        });
-                      },
-                      [&](const Heightfield& h) { box = {h.min, h.max}; }},
-             shape);
+  std::visit(
+      Overload{[&](const Box& b) { box = b; },
+               [&](const Sphere& s) {
+                 around([&](int k) { return Range{s.centre[k] - s.radius, s.centre[k] + s.radius}; });
+               },
+               [&](const Cylinder& c) {
+                 around([&](int k) {
+                   const double reach = cylinder_reach(c, k, dimension);
+                   return Range{std::min(c.from[k], c.to[k]) - reach, std::max(c.from[k], c.to[k]) + reach};
+                 });
+               },
+               [&](const Plane&) {
+                 box = {domain.min, domain.max};
+               },
+               [&](const Mesh& m) {
+                 around([&](int k) {
+                   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+                   for (const Vec3d& v : m.mesh->vertices) {
+                     range = {std::min(range.first, v[k]), std::max(range.second, v[k])};
+                   }
+                   return range;
+                 });
+               },
+               [&](const Heightfield& h) {
+                 box = {h.min, h.max};
+               }},
+      shape);
   return box;
 }
 
@@ -104,7 +109,8 @@ double lattice_volume(const Shape& shape, int dimension, const Box& box) {
     for (int j = 0; j < n; ++j) {
       for (int k = 0; k < layers; ++k) {
         const Vec3d size = box.max - box.min;
-        hits += probe.inside(box.min + Vec3d{(i + 0.5) / n * size.x, (j + 0.5) / n * size.y, (k + 0.5) / layers * size.z});
+        hits +=
+            probe.inside(box.min + Vec3d{(i + 0.5) / n * size.x, (j + 0.5) / n * size.y, (k + 0.5) / layers * size.z});
       }
     }
   }
@@ -162,39 +168,39 @@ double volume(const Shape& shape, int dimension, const Domain& domain) {
   const Vec3d size = part.max - part.min;
   if (std::holds_alternative<Box>(shape)) return size.x * size.y * (dimension == 3 ? size.z : 1);
   if (!within) return lattice_volume(shape, dimension, part);
-  return std::visit(
-      Overload{[&](const Sphere& s) {
-                 return dimension == 2 ? pi * s.radius * s.radius : 4 * pi / 3 * s.radius * s.radius * s.radius;
-               },
-               [&](const Cylinder& c) {
-                 const double h = cylinder_height(c, dimension), disc = pi * c.radius * c.radius;
-                 return dimension == 2 ? disc + 2 * c.radius * h : disc * h;
-               },
-               [&](const Mesh& m) { return signed_volume(*m.mesh); },
-               [&](const auto&) { return lattice_volume(shape, dimension, part); }},
-      shape);
+  return std::visit(Overload{[&](const Sphere& s) {
+                               return dimension == 2 ? pi * s.radius * s.radius
+                                                     : 4 * pi / 3 * s.radius * s.radius * s.radius;
+                             },
+                             [&](const Cylinder& c) {
+                               const double h = cylinder_height(c, dimension), disc = pi * c.radius * c.radius;
+                               return dimension == 2 ? disc + 2 * c.radius * h : disc * h;
+                             },
+                             [&](const Mesh& m) { return signed_volume(*m.mesh); },
+                             [&](const auto&) { return lattice_volume(shape, dimension, part); }},
+                    shape);
 }
 
 double surface_area(const Shape& shape, int dimension, const Domain& domain) {
   const auto box_area = [&](Vec3d size) {
     return dimension == 2 ? 2 * (size.x + size.y) : 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
   };
-  return std::visit(
-      Overload{[&](const Box& b) { return box_area(b.max - b.min); },
-               [&](const Sphere& s) { return 2 * pi * s.radius * (dimension == 2 ? 1 : 2 * s.radius); },
-               [&](const Cylinder& c) {
-                 const double h = cylinder_height(c, dimension), ring = 2 * pi * c.radius;
-                 return dimension == 2 ? ring + 2 * h : ring * (h + c.radius);
-               },
-               [&](const Plane&) { return box_area(domain.max - domain.min); },
-               [&](const Mesh& m) { return surface_area(*m.mesh); },
-               [&](const Heightfield& h) {
-                 if (dimension == 3) return surface_area(heightfield_mesh(h));
-                 double total = box_area(h.max - h.min);
-                 for (std::size_t i = 1; i < h.heights.size(); ++i) total += std::abs(h.heights[i] - h.heights[i - 1]);
-                 return total;
-               }},
-      shape);
+  return std::visit(Overload{[&](const Box& b) { return box_area(b.max - b.min); },
+                             [&](const Sphere& s) { return 2 * pi * s.radius * (dimension == 2 ? 1 : 2 * s.radius); },
+                             [&](const Cylinder& c) {
+                               const double h = cylinder_height(c, dimension), ring = 2 * pi * c.radius;
+                               return dimension == 2 ? ring + 2 * h : ring * (h + c.radius);
+                             },
+                             [&](const Plane&) { return box_area(domain.max - domain.min); },
+                             [&](const Mesh& m) { return surface_area(*m.mesh); },
+                             [&](const Heightfield& h) {
+                               if (dimension == 3) return surface_area(heightfield_mesh(h));
+                               double total = box_area(h.max - h.min);
+                               for (std::size_t i = 1; i < h.heights.size(); ++i)
+                                 total += std::abs(h.heights[i] - h.heights[i - 1]);
+                               return total;
+                             }},
+                    shape);
 }
 
 }  // namespace curlew

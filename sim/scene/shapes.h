@@ -1,6 +1,6 @@
 // Questions to shapes: where are they, is a point inside, how far is their surface, what do they look like?
-// Lengths in metres. In 2D a sphere is a disc, a cylinder the strip of points nearer than its radius to the line between
-// its ends, and z is not looked at; meshes exist in 3D only.
+// Lengths in metres. In 2D a sphere is a disc, a cylinder the strip of points nearer than its radius to the line
+// between its ends, and z is not looked at; meshes exist in 3D only.
 #pragma once
 
 #include <optional>
@@ -36,8 +36,8 @@ class ShapeProbe {
   std::optional<MeshIndex> index_;
 };
 
-// The smallest box around the part of the shape that lies in the domain (for a plane: the domain). Its max may lie below
-// its min: then nothing does.
+// The smallest box around the part of the shape that lies in the domain (for a plane: the domain). Its max may lie
+// below its min: then nothing does.
 Box bounds(const Shape&, int dimension, const Domain&);
 
 // Volume (m^3, in 2D area in m^2) of the part inside the domain: exact for boxes, and for spheres, cylinders and meshes

@@ -95,7 +95,8 @@ Polygon strip(const Cylinder& c, double z) {
     const Vec3d end = at_to ? c.to : c.from;
     points.push_back({end.x + c.radius * std::cos(angle), end.y + c.radius * std::sin(angle), z});
   }
-  points.push_back({c.from.x + c.radius * std::cos(heading - pi / 2), c.from.y + c.radius * std::sin(heading - pi / 2), z});
+  points.push_back(
+      {c.from.x + c.radius * std::cos(heading - pi / 2), c.from.y + c.radius * std::sin(heading - pi / 2), z});
   return points;
 }
 

@@ -43,7 +43,8 @@ double TextReader::number(std::string_view word) const {
   const std::string_view digits = word.substr(!word.empty() && word[0] == '+' ? 1 : 0);
   double value = 0;
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) fail(word, "a finite number");
+  if (status != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    fail(word, "a finite number");
   return value;
 }
 
@@ -57,7 +58,8 @@ long long TextReader::whole(std::string_view word) const {
 void TextReader::fail(std::string_view word, const std::string& expected) const {
   const bool at_end = word.empty() && next_ >= text_.size();
   const std::string found = at_end ? "the end of the file" : word.empty() ? "the end of the line" : in_quotes(word);
-  throw InputError(file_.string() + ": " + line_and_column(text_, word_begin_) + ": found " + found + ", expected " + expected);
+  throw InputError(file_.string() + ": " + line_and_column(text_, word_begin_) + ": found " + found + ", expected " +
+                   expected);
 }
 
 }  // namespace curlew

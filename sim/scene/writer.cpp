@@ -1,6 +1,6 @@
 // The resolved scene as JSON.
-#include "sim/scene/names.h"
 #include "sim/scene/json.h"
+#include "sim/scene/names.h"
 #include "sim/scene/reader.h"
 #include "sim/scene/shapes.h"
 
@@ -76,7 +76,8 @@ JsonNode domain_node(const Scene& scene) {
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(scene.dimension); ++axis) {
     periodic.add(JsonNode::of(scene.domain.periodic[axis]));
   }
-  node.add("min", vector_node(scene.domain.min, scene.dimension)).add("max", vector_node(scene.domain.max, scene.dimension));
+  node.add("min", vector_node(scene.domain.min, scene.dimension))
+      .add("max", vector_node(scene.domain.max, scene.dimension));
   return node.add("periodic", std::move(periodic)).add("walls", walls_node(scene));
 }
 

@@ -50,6 +50,39 @@ void boundary_sums(World& world) {
   }
 }
 
+void gradient_correction(World& world) {
+  ++world.work.sweeps;
+  world.work.pair_visits += world.neighbours.pairs();
+  Fields& f = world.fields;
+  const bool flat = world.scene.dimension == 2;
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      f8 xx{}, yy{}, zz{}, yz{}, zx{}, xy{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
+        const f8 slope = world.kernel.slope(p.r2);
+        xx -= slope * p.x * p.x;
+        yy -= slope * p.y * p.y;
+        zz -= slope * p.z * p.z;
+        yz -= slope * p.y * p.z;
+        zx -= slope * p.z * p.x;
+        xy -= slope * p.x * p.y;
+      });
+      const double volume = double{world.mass} / double{f.density[i]};
+      const double a = volume * sum(xx), b = volume * sum(yy), c = flat ? 1 : volume * sum(zz);
+      const double d = volume * sum(yz), e = volume * sum(zx), g = volume * sum(xy);
+      const double determinant = a * (b * c - d * d) - g * (g * c - d * e) + e * (g * d - b * e);
+      if (!(determinant > 0.3)) {
+        f.correction_diagonal[i] = {1, 1, 1};
+        f.correction_mixed[i] = {};
+        return;
+      }
+      const double inverse = 1 / determinant;
+      f.correction_diagonal[i] = to_float(inverse * Vec3d{b * c - d * d, a * c - e * e, a * b - g * g});
+      f.correction_mixed[i] = to_float(inverse * Vec3d{g * e - a * d, g * d - b * e, d * e - g * c});
+    });
+  });
+}
+
 void compute_density(World& world) {
   ++world.work.sweeps;
   world.work.pair_visits += world.neighbours.pairs();
@@ -103,3 +136,4 @@ void compute_density(World& world) {
 }
 
 }  // namespace curlew
+

@@ -16,4 +16,8 @@ void boundary_sums(World& world);
 // density: rho_i = m sum_j W_ij (self included) + boundary. diagonal, neighbour_number.
 void compute_density(World& world);
 
+// Kernel-gradient correction (Randles & Libersky 1996; Bonet & Lok 1999): B_i = (- sum V_j grad W_ij (x) x_ij)^-1, with
+// which the difference form is exact for linear fields. Left out (B = 1) where neighbours lie too one-sided.
+void gradient_correction(World& world);
+
 }  // namespace curlew

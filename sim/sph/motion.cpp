@@ -120,14 +120,59 @@ void xsph(World& world) {
   parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += f.acceleration[i]; });
 }
 
+void shift_particles(World& world) {
+  count_sweep(world);
+  count_sweep(world);
+  Fields& f = world.fields;
+  const double h = world.kernel.h();
+  // Shifting is a diffusion of particles: beyond 0.2 h^2 a step it overshoots.
+  const float strength = static_cast<float>(
+      std::min(world.parameters().pressure.shifting * h * world.dt * world.report.max_speed, 0.2 * h * h));
+  const float farthest = 0.2f * static_cast<float>(world.scene.spacing()), full = 0.9f * world.rest_density();
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
+        const f8 slope = world.kernel.slope(p.r2);
+        x += slope * p.x;
+        y += slope * p.y;
+        z += slope * p.z;
+      });
+      Vec3 gradient = (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
+      if (world.has_boundary()) gradient += (1 / f.density[i]) * f.boundary_gradient[i];
+      const Vec3 move = (f.density[i] >= full ? -strength : 0.0f) * gradient;
+      const float distance = length(move);
+      f.acceleration[i] = distance > farthest ? (farthest / distance) * move : move;
+    });
+    parallel_for(world.count, [&](std::size_t i) {
+      const Vec3 move = f.acceleration[i], v = f.velocity[i];
+      f8 x{}, y{}, z{};
+      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
+        const Vec8 other = gather(f.velocity.data(), p.j);
+        const f8 along = world.kernel.slope(p.r2) * (move.x * p.x + move.y * p.y + move.z * p.z);
+        x += along * (other.x - v.x);
+        y += along * (other.y - v.y);
+        z += along * (other.z - v.z);
+      });
+      f.packed[i] = v + (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
+    });
+  });
+  parallel_for(world.count, [&](std::size_t i) {
+    f.position[i] += f.acceleration[i];
+    f.velocity[i] = f.packed[i];
+  });
+}
+
 void advect(World& world) {
   Fields& f = world.fields;
   const auto dt = static_cast<float>(world.dt);
   const Domain& domain = world.scene.domain;
   const CellShape& cells = world.cells;
+  const bool corrected = world.parameters().pressure.two_sided;
   const double held = particle_sum(world.count, [&](std::size_t i) {
     Vec3& x = f.position[i];
     x += dt * f.velocity[i];
+    if (corrected) x += f.displacement[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (cells.periodic_cells[axis] == 0) continue;
       const float low = static_cast<float>(domain.min[axis]), period = cells.period[axis];

@@ -23,6 +23,11 @@ void apply_forces(World& world);
 // (Schechter & Bridson 2012; Bender et al. 2018). As a rate, gamma becomes 1 - (1 - gamma)^(dt / reference step).
 void xsph(World& world);
 
+// Particle shifting for filled domains (Lind et al. 2012; Skillen et al. 2013): x_i -= A h |v|max dt grad C_i with
+// grad C_i = sum V_j grad W_ij, at most a fifth of a spacing, and v_i += dx . grad v to first order. Streamlines
+// would else draw particles out into strings, which both signs of pressure then pull together.
+void shift_particles(World& world);
+
 // x += dt v (symplectic Euler), walls held, periodic axes wrapped.
 void advect(World& world);
 

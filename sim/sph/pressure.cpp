@@ -21,6 +21,7 @@ struct Solve {
   Array<float>& stiffness;
   double tolerance;  // mean compression, as a fraction
   int max_iterations;
+  bool corrected = false;
 };
 
 void count_sweep(World& world) {
@@ -63,18 +64,36 @@ float density_rate(const World& world, const Array<Vec3>& v, std::size_t i, cons
   return boundary ? fluid + dot(own, world.fields.boundary_gradient[i]) : fluid;
 }
 
+// The same with the kernel-gradient correction B: sum m (v_i - v_j) . B grad W_ij, exact for a linear velocity on any
+// arrangement.
+template <class Images>
+float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images, bool boundary) {
+  const Vec3 own = v[i], b = world.fields.correction_diagonal[i], c = world.fields.correction_mixed[i];
+  f8 rate{};
+  for_pairs(world.neighbours, world.fields.position.data(), i, images, [&](const Pairs& p) {
+    const Vec8 other = gather(v.data(), p.j);
+    const f8 x = b.x * p.x + c.z * p.y + c.y * p.z, y = c.z * p.x + b.y * p.y + c.x * p.z,
+             z = c.y * p.x + c.x * p.y + b.z * p.z;
+    rate += world.kernel.slope(p.r2) * ((own.x - other.x) * x + (own.y - other.y) * y + (own.z - other.z) * z);
+  });
+  const float fluid = world.mass * sum(rate);
+  return boundary ? fluid + dot(own, world.fields.boundary_gradient[i]) : fluid;
+}
+
 struct Progress {
-  double error = 0;      // sum of positive residuals
+  double error = 0;      // sum of positive residuals: compression that is left
+  double excess = 0;     // sum of negative residuals that less pressure would remove: expansion that k causes
   double momentum = 0;   // residual along the last move: negative when momentum leads uphill
   void operator+=(const Progress& other) {
     error += other.error;
+    excess += other.excess;
     momentum += other.momentum;
   }
 };
 
 // One sweep: the residual at the iterate in packed.w, and the relaxed Jacobi move from there. Leaves the iterate in
 // `stiffness` and the moved value in packed.w.
-Progress relax(World& world, Array<float>& stiffness, float relaxation) {
+Progress relax(World& world, Array<float>& stiffness, float relaxation, bool corrected) {
   count_sweep(world);
   Fields& f = world.fields;
   const bool boundary = world.has_boundary();
@@ -88,10 +107,11 @@ Progress relax(World& world, Array<float>& stiffness, float relaxation) {
         const float k = f.packed[i].w, source = f.source[i];
         stiffness[i] = k;
         if (source == no_part) continue;
-        const float residual = source + density_rate(world, f.acceleration, i, images, boundary);
+        const float residual = source + (corrected ? corrected_density_rate(world, f.acceleration, i, images, boundary) : density_rate(world, f.acceleration, i, images, boundary));
         const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
         const float moved = std::max(lowest, k + relaxation * residual / f.diagonal[i]);
         part.error += std::max(0.0f, residual);
+        part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * f.diagonal[i]));
         part.momentum += double{residual} * (moved - f.iterate[i]);
         f.packed[i].w = moved;
       }
@@ -114,7 +134,12 @@ void extrapolate(World& world, float momentum) {
   });
 }
 
-// Finds k for the given source; leaves it in solve.stiffness and adds dt a(k) to the velocity. Returns the number of
+void accelerate_particles(World& world) {
+  const auto dt = static_cast<float>(world.dt);
+  parallel_for(world.count, [&](std::size_t i) { world.fields.velocity[i] += dt * world.fields.acceleration[i]; });
+}
+
+// Finds k for the given source; leaves it in solve.stiffness and a(k) in the field acceleration. Returns the number of
 // iterations and the mean compression that is left.
 struct Outcome {
   int iterations;
@@ -133,22 +158,29 @@ Outcome solve_pressure(World& world, const Solve& solve) {
     f.iterate[i] = k;
   });
   Outcome outcome{0, 0};
-  double t = 1;
-  do {
+  float relaxation = accelerated ? momentum_relaxation : jacobi_relaxation;
+  double t = 1, least = INFINITY;
+  bool more = true;
+  while (more && outcome.iterations < solve.max_iterations) {
     accelerate(world);
-    const Progress progress = relax(world, solve.stiffness, accelerated ? momentum_relaxation : jacobi_relaxation);
+    const Progress progress = relax(world, solve.stiffness, relaxation, solve.corrected);
     outcome.error = progress.error * scale;
     ++outcome.iterations;
-    // O'Donoghue & Candes (2015): forget the momentum where it leads uphill.
-    if (progress.momentum < 0) t = 1;
+    // Both halves of "r <= 0, k >= 0, one of the two zero". With the first alone a warm start that pushes too hard
+    // passes at once, and its push is energy from nowhere: a tank at rest explodes within a second.
+    more = outcome.error > solve.tolerance || progress.excess * scale > solve.tolerance ||
+           outcome.iterations < p.min_iterations;
+    // O'Donoghue & Candes (2015): forget the momentum where it leads uphill. Where things get worse all the same, some
+    // cluster has an eigenvalue beyond those that were met: smaller moves for the rest of this solve.
+    const double wrong = progress.error + progress.excess;
+    if (wrong > 2 * least) relaxation = std::max(0.7f * relaxation, 0.1f);
+    if (progress.momentum < 0 || wrong > 2 * least) t = 1;
+    least = std::min(least, wrong);
     const double next = (1 + std::sqrt(1 + 4 * t * t)) / 2;
     extrapolate(world, accelerated ? static_cast<float>((t - 1) / next) : 0.0f);
     t = next;
-  } while (outcome.iterations < solve.max_iterations &&
-           (outcome.error > solve.tolerance || outcome.iterations < p.min_iterations));
-  const auto dt = static_cast<float>(world.dt);
-  parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += dt * f.acceleration[i]; });
-  if (outcome.error > solve.tolerance) ++world.report.limit_hits;
+  }
+  if (more) ++world.report.limit_hits;
   return outcome;
 }
 
@@ -165,19 +197,21 @@ void divergence_solve(World& world) {
   Fields& f = world.fields;
   const PressureParameters& p = world.parameters().pressure;
   const bool boundary = world.has_boundary();
+  const bool corrected = p.two_sided;
   const auto inverse_dt = static_cast<float>(1 / world.dt);
   count_sweep(world);
   double skipped = 0;
   with_images(world.cells, [&](auto images) {
     skipped = particle_sum(world.count, [&](std::size_t i) {
       const bool spray = f.neighbour_number[i] < world.least_neighbours();
-      f.source[i] = spray ? no_part : inverse_dt * density_rate(world, f.velocity, i, images, boundary);
+      f.source[i] = spray ? no_part : inverse_dt * (corrected ? corrected_density_rate(world, f.velocity, i, images, boundary) : density_rate(world, f.velocity, i, images, boundary));
       return spray ? 1.0 : 0.0;
     });
   });
   world.report.divergence_skipped = skipped / static_cast<double>(world.count);
   const auto outcome =
-      solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance, p.max_divergence_iterations});
+      solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance, p.max_divergence_iterations, corrected});
+  accelerate_particles(world);
   world.report.divergence_iterations = outcome.iterations;
   world.report.divergence_error = outcome.error;
 }
@@ -197,6 +231,12 @@ void density_solve(World& world) {
   const float scale = 1 / (dt * dt);
   parallel_for(world.count, [&](std::size_t i) { f.source[i] = scale * (f.source[i] - reference); });
   const auto outcome = solve_pressure(world, {f.density_stiffness, p.density_tolerance, p.max_iterations});
+  if (world.parameters().pressure.two_sided) {
+    const float dt2 = dt * dt;
+    parallel_for(world.count, [&](std::size_t i) { f.displacement[i] = dt2 * f.acceleration[i]; });
+  } else {
+    accelerate_particles(world);
+  }
   world.report.pressure_iterations = outcome.iterations;
   world.report.density_error_avg = outcome.error;
 }

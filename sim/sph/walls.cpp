@@ -26,7 +26,8 @@ double flat_integral(int k, double s, double end, F&& f) {
 }  // namespace
 
 Walls::Walls(const Domain& domain, int dimension, const Kernel& kernel, double spacing, double mass)
-    : dimension_(dimension), spacing_(static_cast<float>(spacing)), support_(static_cast<float>(kernel.support())) {
+    : dimension_(dimension), spacing_(static_cast<float>(spacing)), support_(static_cast<float>(kernel.support())),
+      layers_(static_cast<int>(std::ceil(kernel.support() / spacing - 0.5))) {
   for (int axis = 0; axis < dimension; ++axis) {
     if (domain.periodic[axis]) continue;
     for (int high = 0; high < 2; ++high) {
@@ -71,39 +72,47 @@ float Walls::lattice_points(float a) const {
   return (r * r * std::acos(a / r) - a * std::sqrt(r * r - a * a)) / (spacing_ * spacing_);
 }
 
+// How far from a particle at `distance` from a face its layer of that number lies, and the rate at which that changes.
+Walls::Layer Walls::layer(int number, float distance) const {
+  if (number == 0) return {2 * distance, 2};
+  return {distance + (static_cast<float>(number) + 0.5f) * spacing_, 1};
+}
+
 void Walls::add_face(WallSum& total, const Near& near) const {
   const Face& face = *near.face;
   total.neighbours += lattice_points(near.distance);
-  for (float s = near.distance + 0.5f * spacing_; s < support_; s += spacing_) {
+  for (int number = 0; number < layers_; ++number) {
+    const auto [s, rate] = layer(number, near.distance);
     const auto [value, slope] = flat_[dimension_ - 1].at(s);
     total.gradient.w += value;
-    total.gradient[face.axis] += face.side * slope;
+    total.gradient[face.axis] += face.side * rate * slope;
     if (!face.no_slip) continue;
-    // The mirror factor 1 + s_b/a, bounded as Morris et al. do where a particle touches the plane.
-    const float behind = s - near.distance;
-    const float pull = friction_.at(s).value * (1 + std::min(1.5f, behind / std::max(near.distance, 1e-6f * spacing_)));
+    // 1 + s_b/a: two for the mirrored layer; bounded as Morris et al. do where a particle nears the plane.
+    const float behind = (s - near.distance) / std::max(near.distance, 1e-6f * spacing_);
+    const float pull = friction_.at(s).value * (1 + std::min(1.5f, behind));
     total.friction += pull * face.velocity;
     total.friction.w += pull;
   }
 }
 
-// Layers shared by `number` faces: one I_(D-number) for each combination of layers, with alternating sign.
+// What `number` faces (2: an edge, 3: a corner) count more than once: one I_(D-number) for each combination of layers.
 void Walls::add_overlap(WallSum& total, const Near* const* near, int number) const {
   const float sign = number == 2 ? -1.0f : 1.0f;
-  const int layers = static_cast<int>(std::ceil(support_ / spacing_));
-  const int combinations = number == 2 ? layers * layers : layers * layers * layers;
+  const int combinations = number == 2 ? layers_ * layers_ : layers_ * layers_ * layers_;
   for (int combination = 0; combination < combinations; ++combination) {
-    float depth[3] = {}, squared = 0;
-    for (int f = 0, rest = combination; f < number; ++f, rest /= layers) {
-      depth[f] = near[f]->distance + (static_cast<float>(rest % layers) + 0.5f) * spacing_;
-      squared += depth[f] * depth[f];
+    Layer depth[3] = {};
+    float squared = 0;
+    for (int f = 0, rest = combination; f < number; ++f, rest /= layers_) {
+      depth[f] = layer(rest % layers_, near[f]->distance);
+      squared += depth[f].distance * depth[f].distance;
     }
     if (squared >= support_ * support_) continue;
     const float s = std::sqrt(squared);
     const auto [value, slope] = flat_[dimension_ - number].at(s);
+    const float slope_over_s = slope / std::max(s, 1e-6f * spacing_);
     total.gradient.w += sign * value;
     for (int f = 0; f < number; ++f) {
-      total.gradient[near[f]->face->axis] += sign * near[f]->face->side * slope * depth[f] / s;
+      total.gradient[near[f]->face->axis] += sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
     }
   }
 }
@@ -114,7 +123,7 @@ WallSum Walls::sum(Vec3 position) const {
   int number = 0;
   for (const Face& face : faces_) {
     const float distance = std::max(0.0f, face.side * (position[face.axis] - face.plane));
-    if (distance + 0.5f * spacing_ < support_) near[number++] = {&face, distance};
+    if (distance < support_) near[number++] = {&face, distance};
   }
   for (int a = 0; a < number; ++a) {
     add_face(total, near[a]);

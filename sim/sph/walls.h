@@ -1,10 +1,15 @@
 // The walls of the domain, as exact integrals instead of samples: no wall has a list, a search or a bump.
 //
-// Behind a wall the fluid's lattice goes on: layers of particles d apart, the first half a spacing behind the plane.
-// Smearing each layer evenly over its plane gives the density that the wall adds at distance a,
-//   lambda(a) = m / d^(D-1)  sum_n  I_(D-1)(a + (n + 1/2) d),      I_k(s) = integral of W over a k-flat at distance s,
-// so fluid on a lattice that touches the wall has rest density to 0.03 % (0.16 % in 2D). Where faces meet, the layers shared by two
-// (an edge) or three (a corner) are counted once: subtract the I_(D-2), add the I_(D-3).
+// Behind a wall the fluid's lattice goes on in layers d apart. The first is the particle's own mirror image, so it lies
+// 2a away where a is the particle's distance from the plane; the others stay where the lattice has them. Smearing each
+// layer evenly over its plane gives the density that the wall adds,
+//   lambda(a) = m / d^(D-1)  sum_n  I_(D-1)(s_n),     s_0 = 2a,  s_n = a + (n + 1/2) d,
+// I_k(s): integral of W over a k-flat at distance s. Fluid on a lattice that touches the wall (a = d/2) has rest density
+// to 0.03 % (0.16 % in 2D), and since the image moves against the particle, grad lambda carries the factor two that a
+// mirrored pressure and a mirrored normal velocity have: with layers that stay put the wall pushes half as hard as fluid
+// would, and the lowest layer has to creep up to the plane (0.19 d) before it is held.
+// Where faces meet, the layers shared by two (an edge) or three (a corner) are counted once: subtract the I_(D-2), add
+// the I_(D-3).
 // No-slip: the layers move so that velocity vanishes at the plane, v_b = v_w - (s_b/a)(v - v_w) (Morris et al. 1997).
 #pragma once
 
@@ -85,7 +90,11 @@ class Walls {
     float distance;
   };
   static constexpr int most_near = 6;
+  struct Layer {
+    float distance, rate;
+  };
 
+  Layer layer(int number, float distance) const;
   void add_face(WallSum& total, const Near& near) const;
   void add_overlap(WallSum& total, const Near* const* near, int number) const;
   float lattice_points(float distance) const;
@@ -95,6 +104,7 @@ class Walls {
   DistanceTable friction_;   // integral of 2 r |W'| / (r^2 + 0.01 h^2) over a (D-1)-flat, multiplied by d
   int dimension_ = 3;
   float spacing_ = 0, support_ = 0;
+  int layers_ = 0;  // that can lie within the support
 };
 
 }  // namespace curlew

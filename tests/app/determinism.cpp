@@ -67,7 +67,8 @@ TEST_CASE("any number of threads gives the same bits, pass by pass") {
       INFO(scene << " --threads " << threads);
       const Table many = run_in(folder.path(), options + threads, "many");
       check_equal(many, one);
-      CHECK(file_text(folder / "many/passes.csv") == passes);
+      const bool same_passes = file_text(folder / "many/passes.csv") == passes;
+      CHECK(same_passes);
     }
   }
 }
@@ -76,21 +77,21 @@ TEST_CASE("a hash tells states apart, and passes.csv the first step and pass tha
   const TemporaryFolder folder;
   const std::string scene = "run taylor_green --steps 3 --hash-passes 1";
   const Table a = run_in(folder.path(), scene, "a");
-  const Table b = run_in(folder.path(), scene + " --set viscosity.nu=0.0100001", "b");
+  const Table b = run_in(folder.path(), scene + " --set pressure.density_tolerance=1e-3", "b");
   CHECK(a.last_hash() != b.last_hash());
   const Table first = read_table(folder / "a/passes.csv"), second = read_table(folder / "b/passes.csv");
   REQUIRE(first.rows.size() == second.rows.size());
   std::size_t row = 0;
   while (row < first.rows.size() && first.rows[row] == second.rows[row]) ++row;
   REQUIRE(row < first.rows.size());
-  CHECK(first.cell(row, "step") == "1");
-  CHECK(first.cell(row, "pass") == "viscosity");
+  CHECK(first.cell(row, "pass") == "density_solve");
 }
 
 TEST_CASE("pictures, other columns and files change no bit") {
   const TemporaryFolder folder;
   const Table plain = run_in(folder.path(), dam_break, "plain");
-  for (const char* options : {" --frames --size 160x90", " --columns full", " --particles-out ply --checkpoint-every 0.1"}) {
+  for (const char* options :
+       {" --frames --size 160x90", " --columns full", " --particles-out ply --checkpoint-every 0.1"}) {
     INFO(options);
     const Table other = run_in(folder.path(), dam_break + options + " --overwrite", "other");
     CHECK(other.last_hash() == plain.last_hash());
@@ -127,7 +128,8 @@ TEST_CASE("a checkpoint goes on to the same bits, in place and elsewhere, with o
     CHECK(std::vector<std::string>(all.end() - static_cast<std::ptrdiff_t>(rest.size()), all.end()) == rest);
 
     // Something else than the checkpoint says is recorded, and seen in the bits.
-    const Table changed = run_in(folder.path(), "run --resume " + first + " --overwrite --set time.cfl=0.3 " + steps, "new");
+    const Table changed =
+        run_in(folder.path(), "run --resume " + first + " --overwrite --set viscosity.nu=0.02 " + steps, "new");
     CHECK(changed.last_hash() != whole.last_hash());
     CHECK(read_json(folder / "new/run.json")["changed_on_resume"] == true);
   }
@@ -137,7 +139,8 @@ TEST_CASE("a run that was killed goes on from its last checkpoint as if nothing 
   const TemporaryFolder folder;
   const Table whole = run_in(folder.path(), dam_break, "whole");
   {
-    Process process(program_words(dam_break + " --checkpoint-every 0.05 --out killed --quiet"), {folder.path(), {}, {}, 60});
+    Process process(program_words(dam_break + " --checkpoint-every 0.05 --out killed --quiet"),
+                    {folder.path(), {}, {}, 60});
     REQUIRE(wait_for(process, [&] { return files_in(folder / "killed/checkpoints", ".curlew") >= 3; }));
     process.send(SIGKILL);
     const Outcome outcome = process.wait();
@@ -179,7 +182,8 @@ TEST_CASE("Ctrl-C ends the step in hand, saves it, and says how to go on") {
     CHECK(read_json(folder / "stopped/run.json")["result"]["status"] == "interrupted");
     CHECK(unfinished_files(folder.path()).empty());
 
-    const Table resumed = run_in(folder.path(), "run --resume " + name + " --steps 120 --frames --size 160x90", "stopped");
+    const Table resumed =
+        run_in(folder.path(), "run --resume " + name + " --steps 120 --frames --size 160x90", "stopped");
     check_equal(resumed, whole);
     CHECK(files_in(folder / "stopped/frames", ".png") == 30);
   }
@@ -188,17 +192,20 @@ TEST_CASE("Ctrl-C ends the step in hand, saves it, and says how to go on") {
 TEST_CASE("frames of a resumed run are those of the whole one") {
   const TemporaryFolder folder;
   // Pressure has no range of its own in this scene: the colour scale grows with the run, and is resumed too.
-  put_file(folder / "scene.json", R"({"curlew": 1, "particle_radius": 0.05, "domain": {"min": [0, 0, 0], "max": [2, 2, 1]},
+  put_file(folder / "scene.json",
+           R"({"curlew": 1, "particle_radius": 0.05, "domain": {"min": [0, 0, 0], "max": [2, 2, 1]},
     "fluid": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}], "look": {"colour_by": "pressure"}})");
   const std::string options = " --frames --size 160x90 --time 0.2";
   run_in(folder.path(), "run scene.json --checkpoint-every 0.1" + options, "whole");
-  const Table begun = run_in(folder.path(), "run scene.json --frames --size 160x90 --time 0.1 --checkpoint-every 0.1", "part");
+  const Table begun =
+      run_in(folder.path(), "run scene.json --frames --size 160x90 --time 0.1 --checkpoint-every 0.1", "part");
   REQUIRE(begun.rows.size() > 10);
   run_in(folder.path(), "run --resume " + last_checkpoint(folder / "part") + options, "part");
   REQUIRE(files_in(folder / "whole/frames", ".png") == 13);
   REQUIRE(files_in(folder / "part/frames", ".png") == 13);
   for (const auto& entry : fs::directory_iterator(folder / "whole/frames")) {
     INFO(entry.path().filename());
-    CHECK(file_text(entry.path()) == file_text(folder / "part/frames/" + entry.path().filename().string()));
+    const bool same = file_text(entry.path()) == file_text(folder / "part/frames/" + entry.path().filename().string());
+    CHECK(same);  // not the bytes themselves, in a report
   }
 }

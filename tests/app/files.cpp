@@ -16,10 +16,25 @@ namespace {
 
 const std::string small = "run dam_break --particles 1k --steps 40";
 
-const std::vector<std::string> basic_columns = {
-    "step", "time", "dt", "particles", "kinetic", "rotational", "potential", "mechanical", "total", "max_speed",
-    "density_error_avg", "density_error_true_avg", "density_error_true_max", "divergence_error", "pressure_iterations",
-    "divergence_iterations", "limit_hits", "outside", "ms_step"};
+const std::vector<std::string> basic_columns = {"step",
+                                                "time",
+                                                "dt",
+                                                "particles",
+                                                "kinetic",
+                                                "rotational",
+                                                "potential",
+                                                "mechanical",
+                                                "total",
+                                                "max_speed",
+                                                "density_error_avg",
+                                                "density_error_true_avg",
+                                                "density_error_true_max",
+                                                "divergence_error",
+                                                "pressure_iterations",
+                                                "divergence_iterations",
+                                                "limit_hits",
+                                                "outside",
+                                                "ms_step"};
 
 // Every cell is a number; only the hash may be empty.
 void check_cells(const Table& table) {
@@ -56,7 +71,8 @@ TEST_CASE("run.json says what ran") {
   const TemporaryFolder folder;
   run_in(folder.path(), small + " --seed 5 --threads 2 --set viscosity.nu=0.01 --frames --size 160x90", "a");
   const json run = read_json(folder / "a/run.json");
-  CHECK(run["command"] == "curlew " + small + " --seed 5 --threads 2 --set viscosity.nu=0.01 --frames --size 160x90 --out a --quiet");
+  CHECK(run["command"] ==
+        "curlew " + small + " --seed 5 --threads 2 --set viscosity.nu=0.01 --frames --size 160x90 --out a --quiet");
   CHECK(run["seed"] == 5);
   CHECK(run["program"]["version"].get<std::string>().starts_with("curlew "));
   CHECK_FALSE(run["program"]["instruction_set"].get<std::string>().empty());
@@ -81,8 +97,8 @@ TEST_CASE("run.json says what ran") {
 TEST_CASE("the scene in run.json runs again to the same bits") {
   const TemporaryFolder folder;
   // The rock brings a mesh from a file, the sphere drop two fluids, Taylor-Green periodic axes in 2D.
-  for (const char* line : {"run rock --particles 2k --steps 10 --set viscosity.nu=0.01", "run sphere_drop --radius 0.04 --steps 10",
-                           "run taylor_green --steps 10"}) {
+  for (const char* line : {"run rock --particles 2k --steps 10 --set viscosity.nu=0.01",
+                           "run sphere_drop --radius 0.04 --steps 10", "run taylor_green --steps 10"}) {
     INFO(line);
     const Table first = run_in(folder.path(), std::string(line) + " --overwrite", "first");
     put_file(folder / "elsewhere/again.json", read_json(folder / "first/run.json")["scene"].dump());
@@ -120,24 +136,36 @@ TEST_CASE("stats.csv has the columns of the manual, a row a step, and disjoint m
   for (std::size_t row = 0; row < full.rows.size(); ++row) CHECK(full.cell(row, "state_hash").size() == 16);
   check_cells(full);
   check_milliseconds(full);
-  // What the columns share is equal, and what the passes took from the kinetic energy is what it lost.
   for (std::size_t row = 1; row < full.rows.size(); ++row) {
     for (const char* column : {"time", "dt", "mechanical", "density_error_avg"}) {
       CHECK(full.cell(row, column) == basic.cell(row, column));
     }
-    double loss = 0;
-    for (const std::string& column : full.columns) {
-      if (column.starts_with("loss_")) loss += full.number(row, column);
+  }
+}
+
+TEST_CASE("what the passes took from the kinetic energy is what it lost") {
+  const TemporaryFolder folder;
+  // At 0.4 s the water of the dam break hits a wall; the vortices lose by viscosity.
+  for (const char* line : {"run dam_break --particles 500 --steps 120", "run taylor_green --steps 20"}) {
+    INFO(line);
+    const Table table = run_in(folder.path(), std::string(line) + " --columns full --overwrite", "a");
+    for (std::size_t row = 1; row < table.rows.size(); ++row) {
+      double loss = 0;
+      for (const std::string& column : table.columns) {
+        if (column.starts_with("loss_")) loss += table.number(row, column);
+      }
+      const double before = table.number(row - 1, "kinetic"), after = table.number(row, "kinetic");
+      CHECK(loss == Approx(before - after).margin(1e-9 * (1 + before)));
     }
-    const double before = full.number(row - 1, "kinetic"), after = full.number(row, "kinetic");
-    CHECK(loss == Approx(before - after).margin(1e-9 * (1 + after)));
+    CHECK(table.number(1, "loss_apply_forces") * (table.number(1, "potential") == 0 ? 1 : -1) > 0);
   }
 }
 
 TEST_CASE("--stats=frame writes the rows of the frames and the last") {
   const TemporaryFolder folder;
   const Table all = run_in(folder.path(), "run dam_break --particles 1k --time 0.11 --fps 25", "all");
-  const Table frames = run_in(folder.path(), "run dam_break --particles 1k --time 0.11 --fps 25 --stats=frame", "frames");
+  const Table frames =
+      run_in(folder.path(), "run dam_break --particles 1k --time 0.11 --fps 25 --stats=frame", "frames");
   REQUIRE(frames.rows.size() == 4);  // at 0, 0.04 and 0.08 s, and the end
   CHECK(frames.cell(0, "time") == "0");
   for (std::size_t row = 1; row < 3; ++row) {
@@ -209,7 +237,8 @@ TEST_CASE("params lists every parameter for programs, people and editors") {
   for (const json& row : list) {
     const std::string key = row["key"];
     INFO(key);
-    for (const char* name : {"key", "type", "default", "min", "max", "slider_min", "slider_max", "unit", "symbol", "doc", "live"}) {
+    for (const char* name :
+         {"key", "type", "default", "min", "max", "slider_min", "slider_max", "unit", "symbol", "doc", "live"}) {
       CHECK(row.contains(name));
     }
     if (row["type"] == "number" || row["type"] == "integer") {
@@ -226,7 +255,9 @@ TEST_CASE("params lists every parameter for programs, people and editors") {
 }
 
 TEST_CASE("assets/scene.schema.json is what `params --schema` prints") {
-  CHECK(curlew_program({"params", "--schema"}).out == file_text(CURLEW_ASSETS_DIR "/scene.schema.json"));
+  const bool same = curlew_program({"params", "--schema"}).out == file_text(CURLEW_ASSETS_DIR "/scene.schema.json");
+  INFO("curlew params --schema > assets/scene.schema.json");
+  CHECK(same);
 }
 
 TEST_CASE("--version, --help and scenes answer on standard output") {
@@ -243,7 +274,8 @@ TEST_CASE("--version, --help and scenes answer on standard output") {
   }
   const Outcome scenes = curlew_program({"scenes"});
   CHECK(scenes.code == 0);
-  for (const std::string& name : bundled_names()) CHECK(("\n" + scenes.out).find("\n" + name + " ") != std::string::npos);
+  for (const std::string& name : bundled_names())
+    CHECK(("\n" + scenes.out).find("\n" + name + " ") != std::string::npos);
 }
 
 TEST_CASE("doctor says what this machine can do") {
@@ -273,10 +305,12 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
     std::string options, pass;
   };
   // Viscosity beyond its explicit limit blows up; a step that is far too long throws the particles across the box.
-  for (const auto& [options, pass] : {Case{"--set viscosity.nu=10 --set time.viscosity_factor=10 --set time.fixed_step=0.01", "apply_forces"},
-                                      Case{"--set time.fixed_step=0.05", "density_solve"}}) {
+  for (const auto& [options, pass] :
+       {Case{"--set viscosity.nu=10 --set time.viscosity_factor=10 --set time.fixed_step=0.01", "apply_forces"},
+        Case{"--set time.fixed_step=0.05", "density_solve"}}) {
     INFO(options);
-    const Outcome outcome = curlew_program(words_of(base + options + " --particles-out ply"), {folder.path(), {}, {}, 60});
+    const Outcome outcome =
+        curlew_program(words_of(base + options + " --particles-out ply"), {folder.path(), {}, {}, 60});
     CHECK(outcome.code == 3);
     const Table table = read_table(folder / "a/stats.csv");
     const std::string step = std::to_string(table.rows.size());
@@ -284,7 +318,8 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
                               table.cell(table.rows.size() - 1, "time") + " s: after pass " + pass + " particle ";
     const std::string said = outcome.err.substr(outcome.err.find("curlew: "));
     CHECK(said.starts_with(begin));
-    CHECK(said.ends_with("; use a smaller time.fixed_step; the state before that step is in a/checkpoints/diverged.curlew\n"));
+    CHECK(said.ends_with(
+        "; use a smaller time.fixed_step; the state before that step is in a/checkpoints/diverged.curlew\n"));
     CHECK(std::count(said.begin(), said.end(), '\n') == 1);
     const json run = read_json(folder / "a/run.json");
     CHECK(run["result"]["status"] == "diverged");
@@ -299,10 +334,12 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
 
 TEST_CASE("a state before divergence goes on with gentler settings") {
   const TemporaryFolder folder;
-  const Outcome outcome = curlew_program(words_of("run dam_break --particles 1k --steps 50 --out a --quiet --set time.fixed_step=0.05"),
-                                         {folder.path(), {}, {}, 60});
+  const Outcome outcome =
+      curlew_program(words_of("run dam_break --particles 1k --steps 50 --out a --quiet --set time.fixed_step=0.3"),
+                     {folder.path(), {}, {}, 60});
   REQUIRE(outcome.code == 3);
-  const Table table = run_in(folder.path(), "run --resume a/checkpoints/diverged.curlew --set time.fixed_step=0.001 --steps 30", "b");
+  const Table table =
+      run_in(folder.path(), "run --resume a/checkpoints/diverged.curlew --set time.fixed_step=0.001 --steps 30", "b");
   CHECK(table.cell(table.rows.size() - 1, "step") == "30");
 }
 
@@ -313,8 +350,9 @@ TEST_CASE("a video holds every frame, as ffprobe counts them") {
     return;
   }
   run_in(folder.path(), "run dam_break --particles 500 --time 0.5 --fps 24 --size 160x90 --video a/film.mp4", "a");
-  const Outcome probe = run_program({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
-                                     "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder / "a/film.mp4"});
+  const Outcome probe =
+      run_program({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                   "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder / "a/film.mp4"});
   CHECK(probe.code == 0);
   CHECK(probe.out == "160,90,24/1,13\n");
   CHECK(read_json(folder / "a/run.json")["result"]["frames"] == 13);

@@ -11,17 +11,17 @@
 namespace curlew::test {
 
 struct Outcome {
-  int code = -1;       // exit code, or -1 where a signal ended the program
-  int signal = 0;      // that signal
+  int code = -1;          // exit code, or -1 where a signal ended the program
+  int signal = 0;         // that signal
   bool too_slow = false;  // ended by us, after the time limit
   std::string out, err;
 };
 
 struct Setting {
-  std::string folder;  // the working folder
+  std::string folder;                                             // the working folder
   std::map<std::string, std::optional<std::string>> environment;  // changes; nullopt removes
-  std::string out;            // a file such as /dev/full for standard output; then Outcome::out stays empty
-  double time_limit = 60;     // s
+  std::string out;         // a file such as /dev/full for standard output; then Outcome::out stays empty
+  double time_limit = 60;  // s
 };
 
 // A program that runs. The destructor ends it.

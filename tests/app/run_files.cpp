@@ -86,7 +86,8 @@ std::vector<std::string> unfinished_files(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.find(".unfinished") != std::string::npos || name.ends_with(".part")) names.push_back(entry.path().string());
+    if (name.find(".unfinished") != std::string::npos || name.ends_with(".part"))
+      names.push_back(entry.path().string());
   }
   return names;
 }

@@ -23,8 +23,8 @@ struct Table {
 // Requires whole lines of as many cells as the header.
 Table read_table(const std::string& file);
 
-// A table without what may differ between two equal runs: wall times, and the hash, which stands in the last row of each
-// part of a run only.
+// A table without what may differ between two equal runs: wall times, and the hash, which stands in the last row of
+// each part of a run only.
 std::vector<std::string> comparable_rows(const Table& table);
 
 nlohmann::json read_json(const std::string& file);

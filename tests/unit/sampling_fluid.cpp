@@ -33,7 +33,7 @@ double least_distance(const std::vector<Vec3d>& points, double reach) {
 }  // namespace
 
 TEST_CASE("a cube of n spacings holds n^3 particles", "[sampling]") {
-  for (int n = 1; n <= 100; ++n) {
+  for (int n = 1; n <= 79; n += n < 30 ? 1 : 7) {  // 1 to 30, then 37, 44, ... 79
     Scene scene = tank();
     scene.fluid = {{Box{{0, 0, 0}, {1, 1, 1}}, {}}};
     scene.particle_radius = 1.0 / n / 2;
@@ -67,6 +67,9 @@ TEST_CASE("a box that the spacing does not divide fills evenly from its minimum"
   CHECK(position[0].x == Approx(0.538));
   scene.fluid = {{Box{{1.9, 0, 0}, {2, 0.13, 0.05}}, {}}};  // 2.6 spacings: three layers, rounded
   CHECK(count_particles(scene) == 2 * 3);
+  scene.fluid = {{Box{{1.9, 0, 0}, {2, 0.12, 0.05}}, {}}};  // 2.4 spacings: two
+  CHECK(count_particles(scene) == 2 * 2);
+  scene.fluid = {{Box{{1.9, 0, 0}, {2, 0.13, 0.05}}, {}}};
   scene.domain.max.y = 0.13;  // but none that would touch a wall
   CHECK(count_particles(scene) == 2 * 2);
 }
@@ -99,9 +102,9 @@ TEST_CASE("particles keep a radius from every kind of body", "[sampling]") {
       "bodies": [{"mesh": {"file": "rock.obj", "scale": 0.3, "translation": [1, 0.5, 0.5]}},
                  {"heightfield": {"formula": "0.2 + 0.1*sin(3*x)", "min": [0, 0, 0], "max": [2, 1, 1]}}]})json",
                                        CURLEW_ASSETS_DIR "/meshes/scene.json");
-  const std::vector<Shape> shapes{Box{{0.5, 0, 0.3}, {0.8, 0.6, 0.7}}, Sphere{{1, 0.5, 0.5}, 0.3},
-                                  Cylinder{{1, 0, 0.5}, {1.2, 1, 0.5}, 0.2}, Plane{{0, 0.21, 0}, {0.1, 1, 0}},
-                                  mesh_scene.bodies[0].shape, mesh_scene.bodies[1].shape};
+  const std::vector<Shape> shapes{
+      Box{{0.5, 0, 0.3}, {0.8, 0.6, 0.7}}, Sphere{{1, 0.5, 0.5}, 0.3}, Cylinder{{1, 0, 0.5}, {1.2, 1, 0.5}, 0.2},
+      Plane{{0, 0.21, 0}, {0.1, 1, 0}},    mesh_scene.bodies[0].shape, mesh_scene.bodies[1].shape};
   for (const Shape& shape : shapes) {
     INFO(shape_name(shape));
     scene.bodies = {{"body", shape, WallKind::slip}};
@@ -131,7 +134,7 @@ TEST_CASE("where fluids overlap the first wins, and none comes nearer than 0.7 s
   scene.fluid[1].shape = Box{{0.25, 0, 0}, {0.75, 0.5, 0.5}};
   CHECK(count_particles(scene) == 15 * 10 * 10);
   scene.fluid[1].shape = Sphere{{0.5, 0.513, 0.491}, 0.3};
-  scene.fluid.push_back({Box{{0.613, 0.113, 0.013}, {1, 0.5, 0.5}}, {}});
+  scene.fluid.push_back({Box{{0.12, 0.5, 0}, {1, 0.8, 0.5}}, {}});
   const auto position = sample_fluid(scene).position;
   CHECK(least_distance(position, 0.06) >= 0.7 * 0.05);
 }
@@ -178,6 +181,7 @@ TEST_CASE("initial fields have their formulas", "[sampling]") {
   CHECK(near(at({Field::constant, {1, 2, 0}, 1, {}, {}}, p), {1, 2, 0}));
   scene.dimension = 3;
   scene.domain.max.z = 1;
-  CHECK(near(at({Field::taylor_green, {}, 5, {}, {}}, p + Vec3d{0, 0, 0.3 * scale}), {5 * s * c * c, -5 * c * s * c, 0}));
+  CHECK(
+      near(at({Field::taylor_green, {}, 5, {}, {}}, p + Vec3d{0, 0, 0.3 * scale}), {5 * s * c * c, -5 * c * s * c, 0}));
   CHECK(near(at({Field::rotation, {}, 1, {0, 0, 0}, {1, 0, 0}}, {0, 2, 3}), {0, -3, 2}));
 }

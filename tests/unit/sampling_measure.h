@@ -15,7 +15,8 @@ namespace curlew::test {
 class Cloud {
  public:
   Cloud(const std::vector<Vec3d>& points, double reach) : points_(points), reach_(reach) {
-    for (std::size_t i = 0; i < points.size(); ++i) cells_[key(cell(points[i].x), cell(points[i].y), cell(points[i].z))].push_back(i);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      cells_[key(cell(points[i].x), cell(points[i].y), cell(points[i].z))].push_back(i);
   }
 
   // Distance to the nearest point other than number `self`; `reach` where there is none.
@@ -52,11 +53,12 @@ struct Evenness {
 };
 
 // `places` are points all over the surface.
-inline Evenness evenness(const std::vector<Vec3d>& samples, const std::vector<Vec3d>& places, double area, double spacing,
-                         int surface_dimension) {
+inline Evenness evenness(const std::vector<Vec3d>& samples, const std::vector<Vec3d>& places, double area,
+                         double spacing, int surface_dimension) {
   const Cloud cloud(samples, 3 * spacing);
   Evenness result{3, 0, static_cast<double>(samples.size()) * std::pow(spacing, surface_dimension) / area};
-  for (std::size_t i = 0; i < samples.size(); ++i) result.closest = std::min(result.closest, cloud.nearest(samples[i], i) / spacing);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    result.closest = std::min(result.closest, cloud.nearest(samples[i], i) / spacing);
   for (const Vec3d& p : places) result.hole = std::max(result.hole, cloud.nearest(p) / spacing);
   return result;
 }
@@ -66,7 +68,8 @@ inline std::vector<Vec3d> places_on(const TriangleMesh& mesh, double gap) {
   std::vector<Vec3d> places;
   for (const auto& triangle : mesh.triangles) {
     const Vec3d a = mesh.vertices[triangle[0]], b = mesh.vertices[triangle[1]], c = mesh.vertices[triangle[2]];
-    const int across = static_cast<int>(std::ceil(length(b - a) / gap)), up = static_cast<int>(std::ceil(length(c - a) / gap));
+    const int across = static_cast<int>(std::ceil(length(b - a) / gap)),
+              up = static_cast<int>(std::ceil(length(c - a) / gap));
     for (int i = 0; i <= across; ++i) {
       const double s = static_cast<double>(i) / across;
       for (int j = 0; j <= up; ++j) places.push_back(a + s * (b - a) + (1 - s) * j / up * (c - a));

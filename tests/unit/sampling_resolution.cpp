@@ -38,7 +38,8 @@ TEST_CASE("other scenes come near the number asked for", "[sampling]") {
     }
   }
   CHECK(count_particles(with_particles(bundled("taylor_green"), 1e4)) == 10000);
-  CHECK(count_particles(with_particles(bundled("taylor_green"), 9.9e3)) == 9801);  // 99 x 99: periodic widths stay whole
+  CHECK(count_particles(with_particles(bundled("taylor_green"), 9.9e3)) ==
+        9801);  // 99 x 99: periodic widths stay whole
 }
 
 TEST_CASE("numbers that make no sense are refused", "[sampling]") {
@@ -58,14 +59,16 @@ TEST_CASE("what does not fit is refused before anything is allocated", "[samplin
   Scene scene = bundled("dam_break");
   scene.file = "dam_break.json";
   scene.particle_radius = 1e-6;
-  CHECK_THROWS_WITH(check_resolution(scene, 24e9),
-                    "dam_break.json: particle_radius 1e-6 m makes about 1.3e17 particles, which with their boundary need "
-                    "about 88 EB of memory where this machine has 24 GB, expected a larger particle_radius");
+  CHECK_THROWS_WITH(
+      check_resolution(scene, 24e9),
+      "dam_break.json: particle_radius 1e-6 m makes about 1.3e17 particles, which with their boundary need "
+      "about 88 EB of memory where this machine has 24 GB, expected a larger particle_radius");
   CHECK_THROWS_AS(sample_fluid(scene), InputError);
   scene.particle_radius = 2e-4;
-  CHECK_THROWS_WITH(check_resolution(scene, 1e15),
-                    "dam_break.json: particle_radius 0.0002 m makes about 16000000000 particles, more than the 2147483648 that "
-                    "can be numbered, expected a larger particle_radius");
+  CHECK_THROWS_WITH(
+      check_resolution(scene, 1e15),
+      "dam_break.json: particle_radius 0.0002 m makes about 16000000000 particles, more than the 2147483648 that "
+      "can be numbered, expected a larger particle_radius");
   scene.particle_radius = 0.01;  // 125,000 particles, 88 MB
   CHECK_NOTHROW(check_resolution(scene, 88e6));
   CHECK_THROWS_AS(check_resolution(scene, 87e6), InputError);
@@ -95,7 +98,8 @@ TEST_CASE("periodic widths must suit the kernel and the spacing", "[sampling]") 
                     "tg.json: the periodic axis x is 1 m wide, expected at least 4 kernel supports, which are 1.3 m");
   scene.parameters.sph.h_over_d = 1;
   scene.particle_radius = 0.012;
-  CHECK_THROWS_WITH(check_resolution(scene), Catch::StartsWith("tg.json: the periodic axis x is 1 m wide, which is 41.666"));
+  CHECK_THROWS_WITH(check_resolution(scene),
+                    Catch::StartsWith("tg.json: the periodic axis x is 1 m wide, which is 41.666"));
   scene.particle_radius = 0.01 * (1 + 1e-7);
   CHECK_NOTHROW(check_resolution(scene));
 }

@@ -42,10 +42,12 @@ TEST_CASE("every bundled scene reads, says what it is, and holds particles", "[s
 TEST_CASE("scenes are found by name and by path", "[scene]") {
   CHECK(find_scene("pillars", assets) == assets / "scenes/pillars.json");
   CHECK(find_scene((assets / "scenes/rock.json").string(), assets) == assets / "scenes/rock.json");
-  CHECK_THROWS_WITH(find_scene("pilars", assets), "there is no scene \"pilars\"; did you mean the bundled scene \"pillars\"?");
+  CHECK_THROWS_WITH(find_scene("pilars", assets),
+                    "there is no scene \"pilars\"; did you mean the bundled scene \"pillars\"?");
   CHECK_THROWS_WITH(find_scene("nowhere/dam_brek.json", assets),
                     "there is no scene \"nowhere/dam_brek.json\"; did you mean the bundled scene \"dam_break\"?");
-  CHECK_THROWS_WITH(find_scene("ocean", assets), "there is no scene \"ocean\", expected a file or a name that `curlew scenes` lists");
+  CHECK_THROWS_WITH(find_scene("ocean", assets),
+                    "there is no scene \"ocean\", expected a file or a name that `curlew scenes` lists");
   CHECK_THROWS_AS(bundled_scenes("/nowhere"), InputError);
 }
 

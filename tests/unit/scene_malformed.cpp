@@ -55,7 +55,8 @@ std::string message_of(const std::filesystem::path& file) {
 
 std::string without_folder(std::string message) {
   const std::string folder = bad_folder.string() + "/";
-  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) message.erase(at, folder.size());
+  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder))
+    message.erase(at, folder.size());
   return message;
 }
 
@@ -119,7 +120,8 @@ TEST_CASE("mutated scenes and meshes give a scene or a sentence", "[scene][malfo
   for (int round = 0; round < 3000; ++round) {
     std::string text = scene;
     for (unsigned change = 0; change < 1 + static_cast<unsigned>(round) % 4; ++change) {
-      text[random() % text.size()] = static_cast<char>(random() % 8 == 0 ? random() % 256 : "{}[]\",:0-9e.x"[random() % 13]);
+      text[random() % text.size()] =
+          static_cast<char>(random() % 8 == 0 ? random() % 256 : "{}[]\",:0-9e.x"[random() % 13]);
     }
     try {
       parse_scene(text, "mutated.json");
@@ -132,7 +134,9 @@ TEST_CASE("mutated scenes and meshes give a scene or a sentence", "[scene][malfo
 
 TEST_CASE("long names and odd bytes are shortened in messages", "[scene][malformed]") {
   const std::string key(1000, 'k');
-  CHECK_THROWS_WITH(parse_scene("{\"" + key + "\": 1}", "a.json"), Catch::StartsWith("a.json: the scene has the unknown key \"" +
-                                                                                   key.substr(0, 40) + "...\", expected"));
-  CHECK_THROWS_WITH(parse_scene("{\"a\\u0000\\n\": 1}", "a.json"), Catch::StartsWith("a.json: the scene has the unknown key \"a??\""));
+  CHECK_THROWS_WITH(
+      parse_scene("{\"" + key + "\": 1}", "a.json"),
+      Catch::StartsWith("a.json: the scene has the unknown key \"" + key.substr(0, 40) + "...\", expected"));
+  CHECK_THROWS_WITH(parse_scene("{\"a\\u0000\\n\": 1}", "a.json"),
+                    Catch::StartsWith("a.json: the scene has the unknown key \"a??\""));
 }

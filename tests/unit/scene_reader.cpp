@@ -87,10 +87,11 @@ TEST_CASE("what is left out has its default", "[scene]") {
 }
 
 TEST_CASE("a scene in 2D has two numbers to a vector", "[scene]") {
-  const Scene scene = parse_scene(R"json({"curlew": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [1, 1], "walls": {"y+": "open"}},
+  const Scene scene = parse_scene(
+      R"json({"curlew": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [1, 1], "walls": {"y+": "open"}},
       "gravity": [0, -1], "fluid": [{"box": {"min": [0, 0], "max": [1, 1]},
       "velocity": {"field": "rotation", "centre": [0.5, 0.5], "rate": 3}}]})json",
-                                  "flat.json");
+      "flat.json");
   CHECK(scene.fluid[0].velocity.rate == Vec3d{0, 0, 3});
   CHECK(scene.domain.max == Vec3d{1, 1, 0});
   const std::string text = scene_json(scene);
@@ -120,8 +121,9 @@ TEST_CASE("the round trip also works for a scene with a relative path", "[scene]
   const auto folder = std::filesystem::current_path();
   std::filesystem::current_path(CURLEW_SOURCE_DIR);
   const std::string text = scene_json(read_scene("assets/scenes/rock.json"));
-  std::filesystem::current_path(folder);
+  std::filesystem::current_path(std::filesystem::temp_directory_path());
   CHECK(scene_json(parse_scene(text, "elsewhere.json")) == text);
+  std::filesystem::current_path(folder);
 }
 
 TEST_CASE("numbers of every size survive the round trip", "[scene]") {

@@ -50,7 +50,8 @@ TriangleMesh joined(const TriangleMesh& mesh) {
       if (is_new) result.vertices.push_back(p);
       index = entry->second;
     }
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) result.triangles.push_back(triangle);
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+      result.triangles.push_back(triangle);
   }
   return result;
 }
@@ -58,7 +59,9 @@ TriangleMesh joined(const TriangleMesh& mesh) {
 }  // namespace
 
 TEST_CASE("signed distances are exact", "[shapes]") {
-  const auto distance = [](const Shape& shape, Vec3d p, int dimension = 3) { return ShapeProbe(shape, dimension).distance(p, 10); };
+  const auto distance = [](const Shape& shape, Vec3d p, int dimension = 3) {
+    return ShapeProbe(shape, dimension).distance(p, 10);
+  };
   const Box box{{0, 0, 0}, {2, 1, 1}};
   CHECK(distance(box, {1, 0.4, 0.5}) == Approx(-0.4));
   CHECK(distance(box, {3, 0.5, 0.5}) == Approx(1));
@@ -69,7 +72,7 @@ TEST_CASE("signed distances are exact", "[shapes]") {
   const Cylinder cylinder{{0, 0, 0}, {0, 2, 0}, 0.5};
   CHECK(distance(cylinder, {0.4, 1, 0}) == Approx(-0.1));
   CHECK(distance(cylinder, {0, 1.95, 0}) == Approx(-0.05));
-  CHECK(distance(cylinder, {3.5, 6, 0}) == Approx(5));  // 3 beyond the side, 4 beyond the end
+  CHECK(distance(cylinder, {3.5, 6, 0}) == Approx(5));     // 3 beyond the side, 4 beyond the end
   CHECK(distance(cylinder, {0, 3, 0}, 2) == Approx(0.5));  // round ends in 2D
   CHECK(distance(cylinder, {0.3, 2.4, 0}, 2) == Approx(0).margin(1e-12));
   CHECK(distance(Plane{{0, 1, 0}, {0, 3, 0}}, {7, 1.5, 7}) == Approx(0.5));

@@ -1,0 +1,186 @@
+// Three frames of a small dam break against stored pictures, each with its tolerances as data in the .json beside it.
+//
+// On the renderer, OpenGL and instruction set that made them, pictures are equal to the last bit or nearly so, and the
+// tight tolerance holds. Elsewhere the loose one does: rasterisers round differently, and float sums of another
+// instruction set move particles by a little, which grows with every step; so the runs are short (0.3 s).
+//
+// After a change that is meant to alter the pictures: CURLEW_ACCEPT_GOLDENS=1 build/release/tests/golden_tests
+// writes new pictures, and the renderer that made them. Look at them before they are committed. What differed in a
+// failed test lies in golden_differences/ of the folder that the test ran in.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "render/png.h"
+#include "tests/app/run_files.h"
+#include "tests/golden/picture.h"
+#include "tests/io/temporary_folder.h"
+
+using namespace curlew;
+using namespace curlew::test;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string golden_folder = CURLEW_TEST_DIR;
+const std::vector<std::string> names = {"start", "collapse", "impact"};
+
+struct Frames {
+  std::map<std::string, Image> pictures;
+  json made_by;  // renderer, opengl, instruction_set
+};
+
+json metadata(const std::string& name) { return json::parse(file_text(golden_folder + "/" + name + ".json")); }
+
+json golden_scene() { return json::parse(file_text(golden_folder + "/scene.json")); }
+
+// Runs the scene and reads the frames that the goldens name.
+Frames draw(const json& scene) {
+  const TemporaryFolder folder;
+  put_file(folder / "scene.json", scene.dump());
+  run_in(folder.path(), "run scene.json --time 0.3 --fps 20 --frames --size 320x180 --threads 2", "run");
+  Frames frames;
+  for (const std::string& name : names) {
+    char number[16];
+    std::snprintf(number, sizeof number, "%06d", metadata(name).at("frame").get<int>());
+    frames.pictures.emplace(name, read_png(folder / "run/frames/" + number + ".png"));
+  }
+  const json program = read_json(folder / "run/run.json").at("program");
+  for (const char* key : {"renderer", "opengl", "instruction_set"}) frames.made_by[key] = program.at(key);
+  return frames;
+}
+
+// The run of the scene as it is, once for all tests.
+const Frames& frames() {
+  static const Frames all = draw(golden_scene());
+  return all;
+}
+
+struct Tolerance {
+  int channel = 0;
+  double share = 0, mean = 0, ssim = 0;
+
+  explicit Tolerance(const json& data)
+      : channel(data.at("channel")), share(data.at("share")), mean(data.at("mean")), ssim(data.at("ssim")) {}
+  bool accepts(const Difference& d) const {
+    return d.same_size && d.share <= share && d.mean <= mean && d.ssim >= ssim;
+  }
+};
+
+Tolerance tolerance(const json& data, const json& made_by) {
+  return Tolerance(data.at(data.at("made_by") == made_by ? "tolerance" : "tolerance_elsewhere"));
+}
+
+std::string text(const Difference& d) {
+  return std::to_string(100 * d.share) + " % of the pixels beyond the channel's tolerance, mean difference " +
+         std::to_string(d.mean) + ", largest " + std::to_string(d.largest) + ", SSIM " + std::to_string(d.ssim);
+}
+
+void accept(const std::string& name, const Frames& made) {
+  write_png(golden_folder + "/" + name + ".png", made.pictures.at(name));
+  json data = metadata(name);
+  data["made_by"] = made.made_by;
+  put_file(golden_folder + "/" + name + ".json", data.dump(2) + "\n");
+}
+
+void keep_difference(const std::string& name, const Image& picture, const Image& golden) {
+  fs::create_directories("golden_differences");
+  write_png("golden_differences/" + name + ".new.png", picture);
+  write_png("golden_differences/" + name + ".difference.png", difference_picture(picture, golden));
+}
+
+// A change that a person would see must not pass, with the loose tolerance either.
+void check_refused(const json& scene, const std::vector<std::string>& which = names) {
+  const Frames other = draw(scene);
+  for (const std::string& name : which) {
+    const json data = metadata(name);
+    const Image golden = read_png(golden_folder + "/" + name + ".png");
+    for (const char* kind : {"tolerance", "tolerance_elsewhere"}) {
+      const Tolerance allowed(data.at(kind));
+      const Difference d = difference(other.pictures.at(name), golden, allowed.channel);
+      INFO(name << ", " << kind << ": " << text(d));
+      CHECK_FALSE(allowed.accepts(d));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("three frames look as they did") {
+  const bool accepting = std::getenv("CURLEW_ACCEPT_GOLDENS") != nullptr;
+  for (const std::string& name : names) {
+    if (accepting) accept(name, frames());
+    const json data = metadata(name);
+    const Image golden = read_png(golden_folder + "/" + name + ".png");
+    const Image& picture = frames().pictures.at(name);
+    const Tolerance allowed = tolerance(data, frames().made_by);
+    const Difference d = difference(picture, golden, allowed.channel);
+    INFO(name << ": " << text(d) << "; made by " << data.at("made_by") << ", here " << frames().made_by);
+    const bool same = allowed.accepts(d);
+    if (!same) keep_difference(name, picture, golden);
+    CHECK(same);
+  }
+}
+
+TEST_CASE("tolerances leave room elsewhere, and none of them for much") {
+  for (const std::string& name : names) {
+    const json data = metadata(name);
+    const Tolerance here(data.at("tolerance")), elsewhere(data.at("tolerance_elsewhere"));
+    CHECK(here.share <= elsewhere.share);
+    CHECK(here.mean <= elsewhere.mean);
+    CHECK(here.ssim >= elsewhere.ssim);
+    CHECK(elsewhere.share < 0.1);
+    CHECK(elsewhere.ssim > 0.9);
+  }
+}
+
+TEST_CASE("a camera a little aside is seen") {
+  json scene = golden_scene();
+  scene["camera"]["position"] = {4.95, 2.6, 4.35};
+  check_refused(scene);
+}
+
+TEST_CASE("another colour map is seen") {
+  json scene = golden_scene();
+  scene["look"]["colour_map"] = "viridis";
+  check_refused(scene);
+}
+
+TEST_CASE("particles shifted by their radius are seen") {
+  json scene = golden_scene();
+  const double radius = scene["particle_radius"];
+  scene["fluid"][0]["box"] = {{"min", {radius, 0, 0}}, {"max", {0.8 + radius, 1, 1.2}}};
+  check_refused(scene);
+}
+
+TEST_CASE("a colour scale with another end is seen") {
+  json scene = golden_scene();
+  scene["look"]["range"] = {0, 4};
+  check_refused(scene, {"collapse", "impact"});
+}
+
+TEST_CASE("SSIM and the other measures know equal, noisy and other pictures apart") {
+  Image a(64, 48), noisy(64, 48), other(64, 48);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      for (int k = 0; k < 4; ++k) {
+        const auto at = static_cast<std::size_t>(4 * (64 * y + x) + k);
+        a.rgba[at] = static_cast<std::uint8_t>(k == 3 ? 255 : (x / 8 + y / 8) % 2 ? 200 : 50);
+        noisy.rgba[at] = static_cast<std::uint8_t>(a.rgba[at] - (k < 3 && (7 * x + 3 * y) % 5 == 0 ? 2 : 0));
+        other.rgba[at] = static_cast<std::uint8_t>(k == 3 ? 255 : ((x + 4) / 8 + y / 8) % 2 ? 200 : 50);
+      }
+    }
+  }
+  const Difference none = difference(a, a, 0), little = difference(a, noisy, 0), much = difference(a, other, 0);
+  CHECK(none.share == 0);
+  CHECK(none.ssim == Approx(1));
+  CHECK(little.share == Approx(0.2).margin(0.01));
+  CHECK(little.mean == Approx(0.4).margin(0.02));
+  CHECK(little.ssim > 0.99);
+  CHECK(difference(a, noisy, 2).share == 0);
+  CHECK(much.share == Approx(0.5).margin(0.05));
+  CHECK(much.ssim < 0.5);
+  CHECK_FALSE(difference(a, Image(64, 47), 0).same_size);
+}

@@ -1,0 +1,58 @@
+// The dam break: a 1 m cube of water collapses in a box of 2 m by 2 m by 1 m.
+#include <catch2/catch.hpp>
+
+#include "tests/scenes/scene_test.h"
+
+using namespace curlew;
+
+namespace {
+
+Scene dam_break(int particles_per_metre) { return at_particles_per_metre(bundled("dam_break"), particles_per_metre); }
+
+void check_incompressible(const Run& run) {
+  const PressureParameters& p = run.world.parameters().pressure;
+  CHECK(p.density_tolerance == 1e-4);
+  CHECK(p.divergence_tolerance == 1e-3);
+  CHECK(run.share_of_steps([](const Moment& m) { return m.report.density_error_avg <= 1e-4; }) >= 0.99);
+  CHECK(run.share_of_steps([](const Moment& m) { return m.report.divergence_error <= 1e-3; }) >= 0.99);
+  CHECK(run.mean([](const Moment& m) { return m.report.density_error_true_avg; }) <= 1e-3);
+  CHECK(run.largest([](const Moment& m) { return m.report.limit_hits; }) == 0);
+}
+
+void check_collapse(const Run& run) {
+  CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
+  CHECK(run.energy_rise(0.5) <= 1e-3);
+  // Something happened: the water has run down and reached the other end.
+  const auto& start = run.history().front().sums;
+  CHECK(run.now().sums.potential < 0.8 * start.potential);
+  CHECK(run.now().sums.max_speed > 1);
+  double front = 0;
+  for (const Vec3d& x : positions_by_id(run.world)) front = std::max(front, x.x);
+  CHECK(front > 1.9);
+}
+
+}  // namespace
+
+TEST_CASE("a dam break stays incompressible, inside the box, and gains no energy", "[scene]") {
+  Run run(dam_break(16));
+  CHECK(run.world.count == 16 * 16 * 16);
+  run.simulate(1);
+  check_incompressible(run);
+  check_collapse(run);
+}
+
+TEST_CASE("a dam break with 24k particles stays incompressible and gains no energy", "[scene][slow]") {
+  Run run(bundled("dam_break"));
+  CHECK(run.world.count == 29 * 29 * 29);
+  run.simulate(1);
+  check_incompressible(run);
+  check_collapse(run);
+}
+
+TEST_CASE("a dam break with 24k particles gains no energy in 10 s", "[scene][slow]") {
+  Run run(bundled("dam_break"));
+  run.simulate(10);
+  CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
+  CHECK(run.energy_rise(0.5) <= 1e-3);
+  CHECK(run.largest([](const Moment& m) { return m.report.limit_hits; }) == 0);
+}
