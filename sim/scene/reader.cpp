@@ -91,8 +91,9 @@ std::vector<Fluid> read_fluid(const JsonPlace& place, int dimension) {
   std::vector<Fluid> fluids;
   const std::string what = "an array of at least one shape";
   for (const JsonPlace& item : place.array(what)) {
-    Fluid fluid{read_shape(item, {"velocity"}, dimension), {}};
+    Fluid fluid{read_shape(item, {"velocity", "jitter"}, dimension), {}};
     if (const auto velocity = item.find("velocity")) fluid.velocity = read_velocity(*velocity, dimension);
+    if (const auto jitter = item.find("jitter")) fluid.jitter = jitter->number(0, 0.3);
     fluids.push_back(std::move(fluid));
   }
   if (fluids.empty()) place.expected(what);

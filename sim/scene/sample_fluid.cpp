@@ -127,6 +127,22 @@ Vec3d initial_velocity(const InitialVelocity& field, Vec3d p, const Scene& scene
   return {field.speed * std::sin(2 * std::numbers::pi * (p.y - scene.domain.min.y) / height), 0, 0};
 }
 
+// p moved by a random amount that depends on the particle's number alone (SplitMix64, Steele et al. 2014), not past a
+// wall and around a periodic axis.
+Vec3d jittered(Vec3d p, double jitter, std::size_t number, const Scene& scene) {
+  std::uint64_t state = 0x9e3779b97f4a7c15u * (number + 1);
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    const double random = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+    p[axis] += jitter * scene.spacing() * random;
+    const double low = scene.domain.min[axis], length = scene.domain.max[axis] - low;
+    if (scene.domain.periodic[axis]) p[axis] -= length * std::floor((p[axis] - low) / length);
+  }
+  return p;
+}
+
 ParticleSample sample_fluid(const Scene& scene) {
   check_resolution(scene);
   const FreeSpace space(scene);
@@ -140,6 +156,7 @@ ParticleSample sample_fluid(const Scene& scene) {
     const auto take = [&](Vec3d p) {
       if (crowded && taken.any_within(p, reach)) return false;
       if (crowded) taken.add(p);
+      if (fluid.jitter > 0) p = jittered(p, fluid.jitter, sample.position.size(), scene);
       sample.position.push_back(p);
       sample.velocity.push_back(initial_velocity(fluid.velocity, p, scene));
       return true;

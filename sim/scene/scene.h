@@ -80,6 +80,9 @@ struct InitialVelocity {
 struct Fluid {
   Shape shape;
   InitialVelocity velocity;
+  // How far particles start from their lattice points at most, along each axis, in spacings: flows without a surface
+  // must not start from a crystal, which breaks in one go when it is strained.
+  double jitter = 0;
 };
 
 struct Body {

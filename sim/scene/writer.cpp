@@ -96,7 +96,9 @@ JsonNode fluid_node(const Scene& scene) {
   for (const Fluid& fluid : scene.fluid) {
     JsonNode item = JsonNode::object();
     item.add(std::string(shape_name(fluid.shape)), shape_node(fluid.shape, scene));
-    node.add(std::move(item.add("velocity", velocity_node(fluid.velocity, scene))));
+    item.add("velocity", velocity_node(fluid.velocity, scene));
+    if (fluid.jitter > 0) item.add("jitter", JsonNode::of(fluid.jitter));
+    node.add(std::move(item));
   }
   return node;
 }
