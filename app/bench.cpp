@@ -37,7 +37,9 @@ Case named_case(const std::string& text) {
 
 struct PassTimes : PassObserver {
   std::map<std::string, double> ms;
-  void after(const Pass& pass, const World&, double milliseconds) override { ms[std::string(pass.name)] += milliseconds; }
+  void after(const Pass& pass, const World&, double milliseconds) override {
+    ms[std::string(pass.name)] += milliseconds;
+  }
 };
 
 struct Measured {
@@ -75,7 +77,8 @@ Measured measure(const Scene& scene, double time, std::int64_t most_steps, const
     m.density_error_true += r.density_error_true_avg;
     const PressureParameters& p = world.parameters().pressure;
     m.within_tolerance += r.density_error_avg <= p.density_tolerance && r.divergence_error <= p.divergence_tolerance;
-    progress.show(std::max(world.time / time, static_cast<double>(world.step) / static_cast<double>(most_steps)), label);
+    progress.show(std::max(world.time / time, static_cast<double>(world.step) / static_cast<double>(most_steps)),
+                  label);
   }
   m.steps = static_cast<double>(world.step);
   m.simulated = world.time;
@@ -88,8 +91,8 @@ Measured measure(const Scene& scene, double time, std::int64_t most_steps, const
 constexpr std::int64_t no_limit = 1000000000;
 
 void print_case(const char* work, const Measured& m) {
-  std::printf("| %s | %zu | %.2f s | %.0f | %.2f ms | %.1f + %.1f | %.1f | %.2f M | %.2f | %.1f | %.2g | %.1f %% |\n", work,
-              m.particles, m.simulated, m.steps, 1e3 * m.simulated / m.steps, m.per_step(m.pressure_iterations),
+  std::printf("| %s | %zu | %.2f s | %.0f | %.2f ms | %.1f + %.1f | %.1f | %.2f M | %.2f | %.1f | %.2g | %.1f %% |\n",
+              work, m.particles, m.simulated, m.steps, 1e3 * m.simulated / m.steps, m.per_step(m.pressure_iterations),
               m.per_step(m.divergence_iterations), 1e3 * m.seconds / m.steps, m.rate(), 1e9 * m.seconds / m.pair_visits,
               m.seconds / m.simulated, m.per_step(m.density_error_true), 100 * m.per_step(m.within_tolerance));
 }
@@ -111,9 +114,10 @@ void print_passes(const std::vector<Measured>& all) {
 
 int speed(const BenchOptions& options, const std::vector<Case>& cases) {
   std::printf("dam_break, viscosity.nu = 0.01, %d threads, %s\n\n", omp_get_max_threads(), CURLEW_ISA_NAME);
-  std::printf("| work | particles | simulated | steps | mean dt | iterations | ms a step | particle-steps a second | ns a "
-              "pair visit | s a simulated second | mean true compression | steps within tolerance |\n"
-              "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| work | particles | simulated | steps | mean dt | iterations | ms a step | particle-steps a second | ns a "
+      "pair visit | s a simulated second | mean true compression | steps within tolerance |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<Measured> all;
   bool fast_enough = true;
   for (const Case& c : cases) {

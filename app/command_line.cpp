@@ -27,8 +27,8 @@ double parse_positive(const std::string& option, const std::string& text, const 
   const char* last = text.data() + text.size();
   const auto [end, status] = std::from_chars(text.data(), last, value);
   if (status != std::errc() || end != last || !std::isfinite(value) || value <= 0 || value > most) {
-    throw InputError(option + " is " + in_quotes(text) + ", expected a positive number" + (unit.empty() ? "" : " of " + unit) +
-                     (most < no_limit ? ", at most " + plain_number(most) : ""));
+    throw InputError(option + " is " + in_quotes(text) + ", expected a positive number" +
+                     (unit.empty() ? "" : " of " + unit) + (most < no_limit ? ", at most " + plain_number(most) : ""));
   }
   return value;
 }
@@ -38,8 +38,8 @@ std::int64_t parse_count(const std::string& option, const std::string& text, std
   const char* last = text.data() + text.size();
   const auto [end, status] = std::from_chars(text.data(), last, value);
   if (status != std::errc() || end != last || value < least || value > most) {
-    throw InputError(option + " is " + in_quotes(text) + ", expected a whole number from " + std::to_string(least) + " to " +
-                     std::to_string(most));
+    throw InputError(option + " is " + in_quotes(text) + ", expected a whole number from " + std::to_string(least) +
+                     " to " + std::to_string(most));
   }
   return value;
 }
@@ -51,9 +51,7 @@ double parse_radius(const std::string& text) {
   return radius;
 }
 
-int parse_threads(const std::string& text) {
-  return static_cast<int>(parse_count("--threads", text, 1, most_threads));
-}
+int parse_threads(const std::string& text) { return static_cast<int>(parse_count("--threads", text, 1, most_threads)); }
 
 void parse_size(const std::string& text, int& width, int& height) {
   const auto cross = text.find('x');
@@ -63,7 +61,8 @@ void parse_size(const std::string& text, int& width, int& height) {
     const char* last = parts[k].data() + parts[k].size();
     const auto [end, status] = std::from_chars(parts[k].data(), last, *numbers[k]);
     if (parts[k].empty() || status != std::errc() || end != last || *numbers[k] < 16 || *numbers[k] > 8192) {
-      throw InputError("--size is " + in_quotes(text) + ", expected WIDTHxHEIGHT such as 1280x720, each from 16 to 8192");
+      throw InputError("--size is " + in_quotes(text) +
+                       ", expected WIDTHxHEIGHT such as 1280x720, each from 16 to 8192");
     }
   }
 }
@@ -98,9 +97,11 @@ void add_common_options(CLI::App& app, RunOptions& o) {
 
 void add_run_options(CLI::App& app, RunOptions& o) {
   add_common_options(app, o);
-  const auto positive = [&](const char* name, auto& target, const char* unit, const char* help, double most = no_limit) {
+  const auto positive = [&](const char* name, auto& target, const char* unit, const char* help,
+                            double most = no_limit) {
     app.add_option_function<std::string>(
-        name, [&target, name, unit, most](const std::string& t) { target = parse_positive(name, t, unit, most); }, help);
+        name, [&target, name, unit, most](const std::string& t) { target = parse_positive(name, t, unit, most); },
+        help);
   };
   const auto count = [&](const char* name, auto& target, std::int64_t least, std::int64_t most, const char* help) {
     app.add_option_function<std::string>(
@@ -117,10 +118,16 @@ void add_run_options(CLI::App& app, RunOptions& o) {
   count("--seed", o.seed, 0, most_seed, "Seed of all random numbers (0)");
   add_path(app, "--out", o.out, "Folder of the run (out/NAME)");
   app.add_option_function<std::string>(
-      "--stats", [&](const std::string& t) { o.stats_each_frame = parse_word("--stats", t, {"step", "frame"}) == "frame"; },
+      "--stats",
+      [&](const std::string& t) {
+        o.stats_each_frame = parse_word("--stats", t, {"step", "frame"}) == "frame";
+      },
       "Rows of stats.csv: step or frame (step)");
   app.add_option_function<std::string>(
-      "--columns", [&](const std::string& t) { o.full_columns = parse_word("--columns", t, {"basic", "full"}) == "full"; },
+      "--columns",
+      [&](const std::string& t) {
+        o.full_columns = parse_word("--columns", t, {"basic", "full"}) == "full";
+      },
       "Columns of stats.csv: basic or full (basic)");
   app.add_flag("--frames", o.frames, "Write PNG frames, off-screen")->disable_flag_override();
   app.add_option_function<std::string>(
@@ -128,7 +135,9 @@ void add_run_options(CLI::App& app, RunOptions& o) {
   add_path(app, "--video", o.video, "Write this mp4 (needs ffmpeg)");
   app.add_option_function<std::string>(
       "--particles-out",
-      [&](const std::string& t) { o.particles_out = parse_word("--particles-out", t, {"vtk", "ply", "bgeo"}); },
+      [&](const std::string& t) {
+        o.particles_out = parse_word("--particles-out", t, {"vtk", "ply", "bgeo"});
+      },
       "Write particles each frame: vtk, ply or bgeo");
   positive("--checkpoint-every", o.checkpoint_every, "seconds", "Write a checkpoint each so many simulated seconds");
   add_path(app, "--resume", o.resume, "Go on from this checkpoint, to the same bits");
@@ -139,8 +148,12 @@ void add_run_options(CLI::App& app, RunOptions& o) {
 
 void add_bench_options(CLI::App& app, BenchOptions& o) {
   app.add_option_function<std::string>(
-      "NAME", [&](const std::string& t) { o.name = parse_word("the benchmark", t, {"speed", "memory"}); },
-      "speed or memory")->required();
+         "NAME",
+         [&](const std::string& t) {
+           o.name = parse_word("the benchmark", t, {"speed", "memory"});
+         },
+         "speed or memory")
+      ->required();
   app.add_option("--cases", o.cases, "Particle numbers (24k 97k)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
@@ -153,9 +166,7 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
       "Exit 1 where a case makes fewer million particle-steps a second");
 }
 
-std::string called(const CLI::App& app) {
-  return app.get_parent() == nullptr ? "curlew" : "curlew " + app.get_name();
-}
+std::string called(const CLI::App& app) { return app.get_parent() == nullptr ? "curlew" : "curlew " + app.get_name(); }
 
 // A word that no command takes: one that is not known, or an option that stands before its command.
 [[noreturn]] void report_extra(const CLI::App& app, const CLI::App& command) {
@@ -174,8 +185,8 @@ std::string called(const CLI::App& app) {
     throw InputError(in_quotes(name) + " stands before " + in_quotes(command.get_name()) + ", expected it after");
   }
   const std::string near = nearest_name(name, known);
-  const std::string advice = near.empty() ? "; `" + called(owner) + " --help` lists what there is"
-                                          : "; did you mean \"" + near + "\"?";
+  const std::string advice =
+      near.empty() ? "; `" + called(owner) + " --help` lists what there is" : "; did you mean \"" + near + "\"?";
   if (!is_option && &owner != &app) {
     throw InputError(called(owner) + ": found " + in_quotes(name) + ", expected no further argument" + advice);
   }

@@ -26,10 +26,14 @@ namespace {
 
 const char* type_text(ParameterRow::Type type) {
   switch (type) {
-    case ParameterRow::Type::real: return "number";
-    case ParameterRow::Type::count: return "integer";
-    case ParameterRow::Type::flag: return "boolean";
-    case ParameterRow::Type::choice: return "choice";
+    case ParameterRow::Type::real:
+      return "number";
+    case ParameterRow::Type::count:
+      return "integer";
+    case ParameterRow::Type::flag:
+      return "boolean";
+    case ParameterRow::Type::choice:
+      return "choice";
   }
   return "";
 }
@@ -129,9 +133,15 @@ int scenes_command() {
 
 int params_command(ParameterFormat format) {
   switch (format) {
-    case ParameterFormat::text: print_text(); break;
-    case ParameterFormat::markdown: print_markdown(); break;
-    case ParameterFormat::schema: std::printf("%s", scene_schema().c_str()); break;
+    case ParameterFormat::text:
+      print_text();
+      break;
+    case ParameterFormat::markdown:
+      print_markdown();
+      break;
+    case ParameterFormat::schema:
+      std::printf("%s", scene_schema().c_str());
+      break;
     case ParameterFormat::json: {
       JsonNode list = JsonNode::array();
       for (const ParameterRow& row : parameter_table()) list.add(parameter_node(row));
@@ -147,8 +157,8 @@ int check_command(const RunOptions& options) {
   const Plan plan = make_plan(world);
   prepare(world, plan);
   std::printf("%s: %s\n", scene.file.string().c_str(), scene.name.c_str());
-  std::printf("  %dD, particle radius %s m, spacing %s m\n", scene.dimension, number_text(scene.particle_radius).c_str(),
-              number_text(scene.spacing()).c_str());
+  std::printf("  %dD, particle radius %s m, spacing %s m\n", scene.dimension,
+              number_text(scene.particle_radius).c_str(), number_text(scene.spacing()).c_str());
   std::printf("  %zu fluid particles, %zu bodies with %zu samples, %.1f neighbours a particle\n", world.count,
               scene.bodies.size(), world.bodies.count(),
               static_cast<double>(world.neighbours.pairs()) / static_cast<double>(world.count));

@@ -31,8 +31,9 @@ void fill_standard_streams() {
   }
 }
 
-// Threads that wait must sleep: where another process wants a core, spinning ones made a step three times slower, and on
-// an idle machine they gain nothing that could be measured. OpenMP reads this before main(), so start once more with it.
+// Threads that wait must sleep: where another process wants a core, spinning ones made a step three times slower, and
+// on an idle machine they gain nothing that could be measured. OpenMP reads this before main(), so start once more with
+// it.
 void let_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 0);

@@ -10,10 +10,10 @@
 namespace curlew {
 
 struct RunOptions {
-  std::string scene;  // file or bundled name; empty with --resume
+  std::string scene;                  // file or bundled name; empty with --resume
   std::vector<std::string> settings;  // key=value
   std::optional<double> radius, particles;
-  std::optional<double> time;          // s
+  std::optional<double> time;  // s
   std::optional<std::int64_t> steps;
   double fps = 60;
   int threads = 0;  // 0: all cores (the user cannot give 0)
@@ -23,7 +23,7 @@ struct RunOptions {
   bool frames = false;
   int width = 1280, height = 720;
   std::string video;
-  std::string particles_out;  // vtk, ply, bgeo or empty
+  std::string particles_out;    // vtk, ply, bgeo or empty
   double checkpoint_every = 0;  // s of simulated time, 0: none
   std::string resume;
   bool quiet = false, overwrite = false;
@@ -33,11 +33,11 @@ struct RunOptions {
 
 struct BenchOptions {
   std::string name;
-  std::vector<std::string> cases;     // particle numbers
+  std::vector<std::string> cases;  // particle numbers
   std::vector<std::string> settings;
   int threads = 0;
-  double time_share = 1;              // of each case's time, for a quick look
-  std::optional<double> at_least;     // millions of particle-steps a second: a gate
+  double time_share = 1;           // of each case's time, for a quick look
+  std::optional<double> at_least;  // millions of particle-steps a second: a gate
 };
 
 }  // namespace curlew

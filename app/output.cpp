@@ -19,7 +19,10 @@ std::string numbered(const std::string& folder, const char* kind, std::int64_t f
 
 FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const std::string& folder,
                          std::optional<std::array<double, 2>> range)
-    : folder_(folder), format_(options.particles_out), colour_(scene.look.colour_by), png_(options.frames),
+    : folder_(folder),
+      format_(options.particles_out),
+      colour_(scene.look.colour_by),
+      png_(options.frames),
       range_(range) {
   view_.camera = scene.camera;
   view_.look = scene.look;

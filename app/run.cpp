@@ -84,7 +84,10 @@ Start resume(const RunOptions& options) {
 class Run {
  public:
   Run(const RunOptions& options, Start start)
-      : options_(options), world_(std::move(start.world)), resumed_(start.resumed_step), folder_(choose_folder()),
+      : options_(options),
+        world_(std::move(start.world)),
+        resumed_(start.resumed_step),
+        folder_(choose_folder()),
         output_(options, world_.scene, folder_, start.colour_range) {
     plan_ = make_plan(world_, StepRecorder::demand(options.full_columns) | output_.demand());
     prepare(world_, plan_);
@@ -189,8 +192,15 @@ class Run {
     char number[32];
     std::snprintf(number, sizeof number, "%06lld", static_cast<long long>(world_.step));
     const std::string file = folder_ + "/checkpoints/" + (name.empty() ? number : name) + ".curlew";
-    CheckpointInfo info{scene_json(world_.scene), world_.scene.file.string(), version_text(), CURLEW_ISA_NAME,
-                        world_.seed, world_.step, world_.time, world_.dt, {}};
+    CheckpointInfo info{scene_json(world_.scene),
+                        world_.scene.file.string(),
+                        version_text(),
+                        CURLEW_ISA_NAME,
+                        world_.seed,
+                        world_.step,
+                        world_.time,
+                        world_.dt,
+                        {}};
     if (const auto range = output_.colour_range()) {
       info.numbers = {{"colour_low", (*range)[0]}, {"colour_high", (*range)[1]}};
     }
@@ -214,7 +224,8 @@ class Run {
       std::printf("%s: %zu particles, %lld steps, %.3f s simulated in %s, %.2f M particle-steps a second, state %s\n",
                   folder_.c_str(), world_.count, static_cast<long long>(world_.step), world_.time,
                   duration_text(summary_.wall_seconds).c_str(), rate(), hash_text(state_hash(world_.fields)).c_str());
-      if (summary_.frames > 0 && output_.wants_frames()) std::printf("%lld frames\n", static_cast<long long>(summary_.frames));
+      if (summary_.frames > 0 && output_.wants_frames())
+        std::printf("%lld frames\n", static_cast<long long>(summary_.frames));
       if (stopped) std::printf("interrupted; go on with: curlew run --resume %s\n", saved.c_str());
     }
     return stopped ? 130 : 0;

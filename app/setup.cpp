@@ -27,9 +27,11 @@ void apply_settings(Parameters& parameters, const std::vector<std::string>& sett
 Scene scene_from(const RunOptions& options) {
   if (options.scene.empty()) throw InputError("no scene was given; `curlew scenes` lists the bundled ones");
   if (std::filesystem::path(options.scene).extension() == ".curlew") {
-    throw InputError(options.scene + " is a checkpoint, expected a scene; go on from it with --resume " + options.scene);
+    throw InputError(options.scene + " is a checkpoint, expected a scene; go on from it with --resume " +
+                     options.scene);
   }
-  if (options.radius && options.particles) throw InputError("--radius and --particles both set the resolution; give one");
+  if (options.radius && options.particles)
+    throw InputError("--radius and --particles both set the resolution; give one");
   Scene scene = read_scene(find_scene(options.scene, assets_folder()));
   apply_settings(scene.parameters, options.settings);
   if (options.radius) scene.particle_radius = *options.radius;

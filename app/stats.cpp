@@ -20,8 +20,8 @@ std::uint64_t written_hash(const Pass& pass, const Fields& fields) {
   return array_hash(std::as_bytes(std::span(hashes)));
 }
 
-// Whether a pass has a column of what it takes from the kinetic energy. All of them together take what is lost: walls take
-// in advect, an open face takes with the particles.
+// Whether a pass has a column of what it takes from the kinetic energy. All of them together take what is lost: walls
+// take in advect, an open face takes with the particles.
 bool may_lose(const Pass& pass) { return pass.writes.has(FieldId::velocity); }
 
 std::string text(double value) { return number_text(value); }
@@ -32,8 +32,12 @@ std::string text(std::int64_t value) { return std::to_string(value); }
 FieldSet StepRecorder::demand(bool full_columns) { return full_columns ? FieldSet{FieldId::vorticity} : FieldSet{}; }
 
 StepRecorder::StepRecorder(const std::string& folder, const World& world, const Plan& plan, const Settings& settings)
-    : settings_(settings), passes_(plan.step), pass_ms_(passes_.size()), loss_(passes_.size()),
-      total_ms_(passes_.size()), outside_counter_(world.scene) {
+    : settings_(settings),
+      passes_(plan.step),
+      pass_ms_(passes_.size()),
+      loss_(passes_.size()),
+      total_ms_(passes_.size()),
+      outside_counter_(world.scene) {
   stats_ = std::make_unique<CsvWriter>(folder + "/stats.csv", columns(plan), settings.resume_after);
   if (settings.hash_passes > 0) {
     const std::vector<std::string> names{"step", "pass", "hash"};
@@ -42,14 +46,29 @@ StepRecorder::StepRecorder(const std::string& folder, const World& world, const 
 }
 
 std::vector<std::string> StepRecorder::columns(const Plan& plan) const {
-  std::vector<std::string> names{
-      "step", "time", "dt", "particles", "kinetic", "rotational", "potential", "mechanical", "total", "max_speed",
-      "density_error_avg", "density_error_true_avg", "density_error_true_max", "divergence_error",
-      "pressure_iterations", "divergence_iterations", "limit_hits", "outside", "ms_step"};
+  std::vector<std::string> names{"step",
+                                 "time",
+                                 "dt",
+                                 "particles",
+                                 "kinetic",
+                                 "rotational",
+                                 "potential",
+                                 "mechanical",
+                                 "total",
+                                 "max_speed",
+                                 "density_error_avg",
+                                 "density_error_true_avg",
+                                 "density_error_true_max",
+                                 "divergence_error",
+                                 "pressure_iterations",
+                                 "divergence_iterations",
+                                 "limit_hits",
+                                 "outside",
+                                 "ms_step"};
   for (const Pass* pass : plan.step) names.push_back("ms_" + std::string(pass->name));
   if (settings_.full_columns) {
-    for (const char* name : {"px", "py", "pz", "lx", "ly", "lz", "enstrophy", "helicity", "divergence_skipped",
-                             "wall_contacts"}) {
+    for (const char* name :
+         {"px", "py", "pz", "lx", "ly", "lz", "enstrophy", "helicity", "divergence_skipped", "wall_contacts"}) {
       names.emplace_back(name);
     }
     for (const Pass* pass : plan.step) {
@@ -88,18 +107,30 @@ void StepRecorder::write_row(const World& world, bool last) {
   outside_ = outside_counter_.count(world);
   const Diagnostics& d = diagnostics_;
   const StepReport& r = world.report;
-  std::vector<std::string> cells{text(world.step), text(world.time), text(world.step > 0 ? world.dt : 0.0),
-                                 text(static_cast<std::int64_t>(world.count)), text(d.kinetic), text(d.rotational),
-                                 text(d.potential), text(d.mechanical()), text(d.total()), text(d.max_speed),
-                                 text(r.density_error_avg), text(r.density_error_true_avg),
-                                 text(r.density_error_true_max), text(r.divergence_error),
-                                 std::to_string(r.pressure_iterations), std::to_string(r.divergence_iterations),
-                                 std::to_string(r.limit_hits), text(outside_), text(step_ms_)};
+  std::vector<std::string> cells{text(world.step),
+                                 text(world.time),
+                                 text(world.step > 0 ? world.dt : 0.0),
+                                 text(static_cast<std::int64_t>(world.count)),
+                                 text(d.kinetic),
+                                 text(d.rotational),
+                                 text(d.potential),
+                                 text(d.mechanical()),
+                                 text(d.total()),
+                                 text(d.max_speed),
+                                 text(r.density_error_avg),
+                                 text(r.density_error_true_avg),
+                                 text(r.density_error_true_max),
+                                 text(r.divergence_error),
+                                 std::to_string(r.pressure_iterations),
+                                 std::to_string(r.divergence_iterations),
+                                 std::to_string(r.limit_hits),
+                                 text(outside_),
+                                 text(step_ms_)};
   for (double ms : pass_ms_) cells.push_back(text(ms));
   if (settings_.full_columns) {
-    for (double value : {d.momentum.x, d.momentum.y, d.momentum.z, d.angular_momentum.x, d.angular_momentum.y,
-                         d.angular_momentum.z, enstrophy(world), helicity(world), r.divergence_skipped,
-                         static_cast<double>(r.wall_contacts)}) {
+    for (double value :
+         {d.momentum.x, d.momentum.y, d.momentum.z, d.angular_momentum.x, d.angular_momentum.y, d.angular_momentum.z,
+          enstrophy(world), helicity(world), r.divergence_skipped, static_cast<double>(r.wall_contacts)}) {
       cells.push_back(text(value));
     }
     for (std::size_t k = 0; k < passes_.size(); ++k) {

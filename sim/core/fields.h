@@ -17,30 +17,31 @@
 
 namespace curlew {
 
-#define CURLEW_FIELDS(FIELD)                                                                                        \
-  FIELD(position, Vec3, "m", kept, "Where the particle is; w is not used.")                                         \
-  FIELD(velocity, Vec3, "m/s", kept, "Velocity; w is not used.")                                                    \
-  FIELD(id, std::uint32_t, "1", kept, "Number of the particle, the same for its whole life.")                       \
-  FIELD(density_stiffness, float, "m^5/(kg s^2)", kept,                                                             \
-        "p / rho^2 of the density solve, carried as its warm start.")                                               \
-  FIELD(divergence_stiffness, float, "m^5/(kg s^2)", kept,                                                          \
-        "p / rho^2 of the divergence solve, carried as its warm start.")                                            \
-  FIELD(density, float, "kg/m^3", scratch, "SPH sum over fluid and boundary.")                                      \
-  FIELD(diagonal, float, "kg^2/m^8", scratch,                                                                       \
-        "|sum m grad W|^2 + sum |m grad W|^2, the diagonal of the pressure operator (DFSPH factor, inverted).")     \
-  FIELD(neighbour_number, float, "1", scratch, "Fluid neighbours, boundary samples and what the walls stand for.")  \
-  FIELD(boundary_gradient, Vec3, "kg/m^4", scratch,                                                                 \
-        "Gradient of the density that boundaries add; w: that density itself, in kg/m^3.")                          \
-  FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                  \
-        "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                \
-  FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")        \
-  FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")    \
-  FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                      \
-  FIELD(displacement, Vec3, "m", scratch, "Moves that are not velocity: density correction and shifting in filled domains.") \
-  FIELD(packed, Vec3, "m", scratch, "Position with the pressure iterate in w: one load per neighbour.")             \
-  FIELD(source, float, "kg/m^3", scratch, "Compression that a solve has to remove.")                                \
-  FIELD(iterate, float, "m^5/(kg s^2)", scratch, "Last iterate of a pressure solve, before momentum.")              \
-  FIELD(pressure, float, "Pa", scratch, "Sum of both solves, rho^2 (k_density + k_divergence).")                    \
+#define CURLEW_FIELDS(FIELD)                                                                                          \
+  FIELD(position, Vec3, "m", kept, "Where the particle is; w is not used.")                                           \
+  FIELD(velocity, Vec3, "m/s", kept, "Velocity; w is not used.")                                                      \
+  FIELD(id, std::uint32_t, "1", kept, "Number of the particle, the same for its whole life.")                         \
+  FIELD(density_stiffness, float, "m^5/(kg s^2)", kept, "p / rho^2 of the density solve, carried as its warm start.") \
+  FIELD(divergence_stiffness, float, "m^5/(kg s^2)", kept,                                                            \
+        "p / rho^2 of the divergence solve, carried as its warm start.")                                              \
+  FIELD(density, float, "kg/m^3", scratch, "SPH sum over fluid and boundary.")                                        \
+  FIELD(diagonal, float, "kg^2/m^8", scratch,                                                                         \
+        "|sum m grad W|^2 + sum |m grad W|^2, the diagonal of the pressure operator (DFSPH factor, inverted).")       \
+  FIELD(neighbour_number, float, "1", scratch, "Fluid neighbours, boundary samples and what the walls stand for.")    \
+  FIELD(boundary_gradient, Vec3, "kg/m^4", scratch,                                                                   \
+        "Gradient of the density that boundaries add; w: that density itself, in kg/m^3.")                            \
+  FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                    \
+        "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                  \
+  FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")          \
+  FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")      \
+  FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \
+  FIELD(displacement, Vec3, "m", scratch,                                                                             \
+        "Moves that are not velocity: density correction and shifting in filled domains.")                            \
+  FIELD(packed, Vec3, "m", scratch, "Position with the pressure iterate in w: one load per neighbour.")               \
+  FIELD(source, float, "kg/m^3", scratch, "Compression that a solve has to remove.")                                  \
+  FIELD(iterate, float, "m^5/(kg s^2)", scratch, "Last iterate of a pressure solve, before momentum.")                \
+  FIELD(pressure, float, "Pa", scratch,                                                                               \
+        "Sum of both solves, rho^2 (k_density + k_divergence) times the gradient share.")                             \
   FIELD(vorticity, Vec3, "1/s", scratch, "Curl of the velocity, difference form (Liu et al. 2020, Eq. 6).")
 
 enum class FieldId : std::uint8_t {

@@ -22,16 +22,19 @@ struct ColourSource {
 constexpr ColourSource sources[] = {
     {{"none", "", ""}, {}, nullptr},
     {{"speed", "speed", "m/s"}, {velocity}, [](const World& w, std::size_t i) { return length(w.fields.velocity[i]); }},
-    {{"height", "height", "m"}, {position},
+    {{"height", "height", "m"},
+     {position},
      [](const World& w, std::size_t i) { return w.fields.position[i].y - static_cast<float>(w.scene.domain.min.y); }},
     {{"pressure", "pressure", "Pa"}, {pressure}, [](const World& w, std::size_t i) { return w.fields.pressure[i]; }},
     {{"density", "density", "kg/m^3"}, {density}, [](const World& w, std::size_t i) { return w.fields.density[i]; }},
-    {{"vorticity", "vorticity", "1/s"}, {vorticity},
+    {{"vorticity", "vorticity", "1/s"},
+     {vorticity},
      [](const World& w, std::size_t i) {
        // In 2D vorticity has a sign.
        return w.scene.dimension == 2 ? w.fields.vorticity[i].z : length(w.fields.vorticity[i]);
      }},
-    {{"neighbours", "neighbours", "1"}, {neighbour_number},
+    {{"neighbours", "neighbours", "1"},
+     {neighbour_number},
      [](const World& w, std::size_t i) { return w.fields.neighbour_number[i]; }},
 };
 

@@ -39,7 +39,7 @@ struct FrameGeometry {
 };
 
 struct Frame {
-  double time = 0;         // s
+  double time = 0;  // s
   std::int64_t step = 0;
   std::vector<Vec3> position;  // m
   std::vector<float> value;    // of the colour field, one a particle; empty for plain water colour

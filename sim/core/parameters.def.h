@@ -10,67 +10,73 @@
 // min and max are hard limits, wider than the slider. Documentation names the paper and equation.
 #pragma once
 
-#define CURLEW_SPH_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                             \
-  REAL(h_over_d, 1.0, 0.8, 2.0, 0.7, 3.0, "1", "h/d", rebuild,                                                       \
-       "Smoothing length over particle spacing; the kernel reaches 2h. Bender & Koschier 2017 use 1.")               \
+#define CURLEW_SPH_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                               \
+  REAL(h_over_d, 1.0, 0.8, 2.0, 0.7, 3.0, "1", "h/d", rebuild,                                         \
+       "Smoothing length over particle spacing; the kernel reaches 2h. Bender & Koschier 2017 use 1.") \
   REAL(rest_density, 1000.0, 100.0, 2000.0, 1e-3, 1e5, "kg/m^3", "rho_0", rebuild, "Density of the fluid at rest.")
 
-#define CURLEW_PRESSURE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                        \
-  REAL(density_tolerance, 1e-4, 1e-5, 1e-2, 1e-7, 1.0, "1", "eta_rho", live,                                         \
-       "Mean compression at which the density solve stops, as a fraction (Bender & Koschier 2017, section 3.3; "     \
-       "0.01 % in Bender et al. 2018, section 7).")                                                                  \
-  REAL(divergence_tolerance, 1e-3, 1e-4, 1e-1, 1e-7, 1.0, "1", "eta_div", live,                                      \
-       "Mean compression rate at which the divergence solve stops, as density change in one step (Bender et al. "    \
-       "2018, section 7: 0.1 %).")                                                                                   \
-  COUNT(max_iterations, 200, 10, 500, 1, 100000, "1", "", live, "Most iterations of the density solve in a step; "   \
-        "reaching it is counted in limit_hits.")                                                                     \
-  COUNT(max_divergence_iterations, 200, 10, 500, 0, 100000, "1", "", live,                                           \
-        "Most iterations of the divergence solve in a step; 0 switches the solve off.")                              \
-  COUNT(min_iterations, 1, 1, 20, 1, 1000, "1", "", live, "Fewest iterations of each solve in a step.")              \
-  FLAG(warm_start, true, "", live, "Begin each solve with the last step's pressure (Bender & Koschier 2017, "        \
-       "section 3.5).")                                                                                              \
-  FLAG(two_sided, false, "", live,                                                                                   \
-       "Both signs of pressure where the neighbourhood is full, and density measured against its mean: for domains " \
-       "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                            \
-  REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                           \
-       "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")   \
-  CHOICE(solver, accelerated, "", live,                                                                              \
-         "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum "\
-         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.", jacobi, accelerated)
+#define CURLEW_PRESSURE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                         \
+  REAL(density_tolerance, 1e-4, 1e-5, 1e-2, 1e-7, 1.0, "1", "eta_rho", live,                                          \
+       "Mean compression at which the density solve stops, as a fraction (Bender & Koschier 2017, section 3.3; "      \
+       "0.01 % in Bender et al. 2018, section 7).")                                                                   \
+  REAL(divergence_tolerance, 1e-3, 1e-4, 1e-1, 1e-7, 1.0, "1", "eta_div", live,                                       \
+       "Mean compression rate at which the divergence solve stops, as density change in one step (Bender et al. "     \
+       "2018, section 7: 0.1 %).")                                                                                    \
+  COUNT(max_iterations, 200, 10, 500, 1, 100000, "1", "", live,                                                       \
+        "Most iterations of the density solve in a step; "                                                            \
+        "reaching it is counted in limit_hits.")                                                                      \
+  COUNT(max_divergence_iterations, 200, 10, 500, 0, 100000, "1", "", live,                                            \
+        "Most iterations of the divergence solve in a step; 0 switches the solve off.")                               \
+  COUNT(min_iterations, 1, 1, 20, 1, 1000, "1", "", live, "Fewest iterations of each solve in a step.")               \
+  FLAG(warm_start, true, "", live,                                                                                    \
+       "Begin each solve with the last step's pressure (Bender & Koschier 2017, "                                     \
+       "section 3.5).")                                                                                               \
+  FLAG(two_sided, false, "", live,                                                                                    \
+       "Both signs of pressure where the neighbourhood is full, and density measured against its mean: for domains "  \
+       "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                             \
+  REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                            \
+       "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")    \
+  CHOICE(solver, accelerated, "", live,                                                                               \
+         "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum " \
+         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.",                                \
+         jacobi, accelerated)
 
-#define CURLEW_VISCOSITY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                       \
-  REAL(nu, 0.0, 0.0, 0.05, 0.0, 100.0, "m^2/s", "nu", live,                                                          \
-       "Kinematic viscosity, explicit; 0 skips the pass. Water has 1e-6, which no affordable spacing resolves.")     \
-  CHOICE(form, scalar, "", live,                                                                                     \
-         "Laplacian of the velocity: scalar form (exact isotropy, Brookshaw 1985) or vector form (Monaghan 1992, "   \
-         "Liu et al. 2020 Eq. 4), which conserves angular momentum.", scalar, vector)
+#define CURLEW_VISCOSITY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \
+  REAL(nu, 0.0, 0.0, 0.05, 0.0, 100.0, "m^2/s", "nu", live,                                                        \
+       "Kinematic viscosity, explicit; 0 skips the pass. Water has 1e-6, which no affordable spacing resolves.")   \
+  CHOICE(form, scalar, "", live,                                                                                   \
+         "Laplacian of the velocity: scalar form (exact isotropy, Brookshaw 1985) or vector form (Monaghan 1992, " \
+         "Liu et al. 2020 Eq. 4), which conserves angular momentum.",                                              \
+         scalar, vector)
 
-#define CURLEW_MICROPOLAR_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                      \
-  REAL(gamma, 0.0, 0.0, 0.1, 0.0, 1.0, "1", "gamma", live,                                                           \
-       "XSPH smoothing of the velocity (Bender et al. 2018, section 5; they use 0.002); 0 skips the pass.")          \
-  CHOICE(xsph_form, rate, "", live,                                                                                  \
-         "XSPH as a rate (gamma per xsph_reference_step, the same under any time step) or per step as in the paper.",\
-         rate, step)                                                                                                 \
-  REAL(xsph_reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "", live, "Time step to which gamma of the rate form " \
+#define CURLEW_MICROPOLAR_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                       \
+  REAL(gamma, 0.0, 0.0, 0.1, 0.0, 1.0, "1", "gamma", live,                                                            \
+       "XSPH smoothing of the velocity (Bender et al. 2018, section 5; they use 0.002); 0 skips the pass.")           \
+  CHOICE(xsph_form, rate, "", live,                                                                                   \
+         "XSPH as a rate (gamma per xsph_reference_step, the same under any time step) or per step as in the paper.", \
+         rate, step)                                                                                                  \
+  REAL(xsph_reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "", live,                                               \
+       "Time step to which gamma of the rate form "                                                                   \
        "refers.")
 
 #define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
-  REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live, "Farthest that a particle may move in a step, in particle "    \
+  REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live,                                                                \
+       "Farthest that a particle may move in a step, in particle "                                                   \
        "spacings (Monaghan 1992).")                                                                                  \
   REAL(acceleration_factor, 0.25, 0.05, 1.0, 0.01, 10.0, "1", "", live,                                              \
        "Step limit from acceleration: factor times sqrt(d / |a|) (Monaghan 1992).")                                  \
   REAL(viscosity_factor, 0.125, 0.01, 0.25, 0.001, 10.0, "1", "", live,                                              \
        "Step limit from explicit viscosity: factor times d^2 / nu (Morris et al. 1997).")                            \
   REAL(growth, 1.1, 1.01, 2.0, 1.001, 1000.0, "1", "", live, "Most that a step may grow over the one before.")       \
-  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step that the limits may choose.")                                \
+  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step that the limits may choose.")     \
   REAL(fixed_step, 0.0, 0.0, 1e-2, 0.0, 10.0, "s", "dt", live, "Fixed time step; 0 chooses the step by the limits.") \
   REAL(max_displacement, 5.0, 1.0, 10.0, 0.1, 1e6, "d", "", live,                                                    \
        "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")
 
 // group name, struct, table, heading
-#define CURLEW_PARAMETER_GROUPS(GROUP)                                                          \
-  GROUP(sph, SphParameters, CURLEW_SPH_PARAMETERS, "Discretisation")                            \
-  GROUP(pressure, PressureParameters, CURLEW_PRESSURE_PARAMETERS, "Pressure (DFSPH)")           \
-  GROUP(viscosity, ViscosityParameters, CURLEW_VISCOSITY_PARAMETERS, "Viscosity")               \
-  GROUP(micropolar, MicropolarParameters, CURLEW_MICROPOLAR_PARAMETERS, "Micropolar and XSPH")  \
+#define CURLEW_PARAMETER_GROUPS(GROUP)                                                         \
+  GROUP(sph, SphParameters, CURLEW_SPH_PARAMETERS, "Discretisation")                           \
+  GROUP(pressure, PressureParameters, CURLEW_PRESSURE_PARAMETERS, "Pressure (DFSPH)")          \
+  GROUP(viscosity, ViscosityParameters, CURLEW_VISCOSITY_PARAMETERS, "Viscosity")              \
+  GROUP(micropolar, MicropolarParameters, CURLEW_MICROPOLAR_PARAMETERS, "Micropolar and XSPH") \
   GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")

@@ -27,9 +27,9 @@ std::vector<ParameterRow> make_table() {
 #define CURLEW_GET [](const Parameters& p) { return static_cast<double>(p.*in_group.*of); }
 #define CURLEW_SET \
   [](Parameters& p, double v) { p.*in_group.*of = static_cast<std::remove_reference_t<decltype(p.*in_group.*of)>>(v); }
-#define CURLEW_ROW(member, ...)                                                      \
-  {                                                                                  \
-    static constexpr auto of = &Group::member;                                       \
+#define CURLEW_ROW(member, ...)                                                              \
+  {                                                                                          \
+    static constexpr auto of = &Group::member;                                               \
     table.push_back({name + "." #member, name, title, __VA_ARGS__, CURLEW_GET, CURLEW_SET}); \
   }
 #define CURLEW_REAL(member, value, smin, smax, min, max, unit, symbol, when, doc) \
@@ -38,19 +38,19 @@ std::vector<ParameterRow> make_table() {
   CURLEW_ROW(member, Type::count, value, smin, smax, min, max, unit, symbol, doc, when, {})
 #define CURLEW_FLAG(member, value, symbol, when, doc) \
   CURLEW_ROW(member, Type::flag, value, 0, 1, 0, 1, "1", symbol, doc, when, {})
-#define CURLEW_CHOICE(member, value, symbol, when, doc, ...)                                                     \
-  {                                                                                                              \
-    const auto names = split_names(#__VA_ARGS__);                                                                \
-    const double last = static_cast<double>(names.size() - 1);                                                   \
-    CURLEW_ROW(member, Type::choice, static_cast<double>(Group::member##_t::value), 0, last, 0, last, "1",       \
-               symbol, doc, when, names)                                                                         \
+#define CURLEW_CHOICE(member, value, symbol, when, doc, ...)                                                       \
+  {                                                                                                                \
+    const auto names = split_names(#__VA_ARGS__);                                                                  \
+    const double last = static_cast<double>(names.size() - 1);                                                     \
+    CURLEW_ROW(member, Type::choice, static_cast<double>(Group::member##_t::value), 0, last, 0, last, "1", symbol, \
+               doc, when, names)                                                                                   \
   }
-#define CURLEW_GROUP(group, type, rows, heading)                       \
-  {                                                                    \
-    using Group = type;                                                \
-    static constexpr auto in_group = &Parameters::group;               \
-    const std::string name = #group, title = heading;                  \
-    rows(CURLEW_REAL, CURLEW_COUNT, CURLEW_FLAG, CURLEW_CHOICE)        \
+#define CURLEW_GROUP(group, type, rows, heading)                \
+  {                                                             \
+    using Group = type;                                         \
+    static constexpr auto in_group = &Parameters::group;        \
+    const std::string name = #group, title = heading;           \
+    rows(CURLEW_REAL, CURLEW_COUNT, CURLEW_FLAG, CURLEW_CHOICE) \
   }
   CURLEW_PARAMETER_GROUPS(CURLEW_GROUP)
   return table;
@@ -86,10 +86,14 @@ double parse_value(const ParameterRow& row, const std::string& text) {
 
 std::string expectation(const ParameterRow& row) {
   switch (row.type) {
-    case Type::flag: return "true or false";
-    case Type::choice: return "one of: " + joined(row.names);
-    case Type::count: return "a whole number from " + number_text(row.min) + " to " + number_text(row.max);
-    case Type::real: break;
+    case Type::flag:
+      return "true or false";
+    case Type::choice:
+      return "one of: " + joined(row.names);
+    case Type::count:
+      return "a whole number from " + number_text(row.min) + " to " + number_text(row.max);
+    case Type::real:
+      break;
   }
   const std::string unit = row.unit == "1" ? "" : " " + row.unit;
   return "a number from " + number_text(row.min) + " to " + number_text(row.max) + unit;

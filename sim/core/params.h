@@ -14,11 +14,11 @@ namespace curlew {
 #define CURLEW_COUNT(member, default_value, ...) int member = default_value;
 #define CURLEW_FLAG(member, default_value, ...) bool member = default_value;
 #define CURLEW_CHOICE(member, default_value, symbol, when, doc, ...) \
-  enum class member##_t : int { __VA_ARGS__ };                       \
+  enum class member##_t : int{__VA_ARGS__};                          \
   member##_t member = member##_t::default_value;
-#define CURLEW_GROUP(group, type, table, heading)                  \
-  struct type {                                                    \
-    table(CURLEW_REAL, CURLEW_COUNT, CURLEW_FLAG, CURLEW_CHOICE)   \
+#define CURLEW_GROUP(group, type, table, heading)                \
+  struct type {                                                  \
+    table(CURLEW_REAL, CURLEW_COUNT, CURLEW_FLAG, CURLEW_CHOICE) \
   };
 CURLEW_PARAMETER_GROUPS(CURLEW_GROUP)
 #undef CURLEW_REAL
@@ -43,12 +43,12 @@ struct ParameterRow {
   std::string heading;  // "Pressure (DFSPH)"
   Type type;
   double default_value;
-  double slider_min, slider_max;  // for the slider
-  double min, max;                // hard limits
-  std::string unit;               // "1" where there is none
-  std::string symbol;             // the paper's letter, or empty
-  std::string doc;                // one sentence, with the paper
-  bool live;                      // may change while running
+  double slider_min, slider_max;   // for the slider
+  double min, max;                 // hard limits
+  std::string unit;                // "1" where there is none
+  std::string symbol;              // the paper's letter, or empty
+  std::string doc;                 // one sentence, with the paper
+  bool live;                       // may change while running
   std::vector<std::string> names;  // of a choice
 
   double (*get)(const Parameters&);

@@ -23,7 +23,8 @@ bool shifts_particles(const World& w) { return is_filled(w) && w.parameters().pr
 bool has_open_face(const World& w) {
   const Domain& domain = w.scene.domain;
   for (int axis = 0; axis < w.scene.dimension; ++axis) {
-    const bool open = domain.walls[2 * axis].kind == WallKind::open || domain.walls[2 * axis + 1].kind == WallKind::open;
+    const bool open =
+        domain.walls[2 * axis].kind == WallKind::open || domain.walls[2 * axis + 1].kind == WallKind::open;
     if (open && !domain.periodic[axis]) return true;
   }
   return false;
@@ -40,43 +41,92 @@ constexpr FieldSet solver_input =
 
 constexpr Pass passes[] = {
     // At the positions that the last step left, with the step that it took:
-    {.name = "divergence_solve", .reads = solver_input | FieldSet{divergence_stiffness},
+    {.name = "divergence_solve",
+     .reads = solver_input | FieldSet{divergence_stiffness},
      .writes = FieldSet{velocity, divergence_stiffness} | solver_space,
-     .wanted = solves_divergence, .run = divergence_solve, .changes_velocity = true},
+     .wanted = solves_divergence,
+     .run = divergence_solve,
+     .changes_velocity = true},
     // Forces and the new step:
     {.name = "gravity", .reads = {}, .writes = {acceleration}, .wanted = always, .run = gravity},
-    {.name = "viscosity", .reads = {position, velocity, density, acceleration, boundary_friction},
-     .writes = {acceleration}, .wanted = is_viscous, .run = viscosity},
-    {.name = "time_step", .reads = {velocity, acceleration}, .writes = {}, .wanted = always,
-     .run = choose_time_step, .essential = true},
-    {.name = "apply_forces", .reads = {velocity, acceleration}, .writes = {velocity}, .wanted = always,
-     .run = apply_forces, .changes_velocity = true},
-    {.name = "xsph", .reads = {position, velocity, density}, .writes = {velocity, acceleration},
-     .wanted = uses_xsph, .run = xsph, .changes_velocity = true},
+    {.name = "viscosity",
+     .reads = {position, velocity, density, acceleration, boundary_friction},
+     .writes = {acceleration},
+     .wanted = is_viscous,
+     .run = viscosity},
+    {.name = "time_step",
+     .reads = {velocity, acceleration},
+     .writes = {},
+     .wanted = always,
+     .run = choose_time_step,
+     .essential = true},
+    {.name = "apply_forces",
+     .reads = {velocity, acceleration},
+     .writes = {velocity},
+     .wanted = always,
+     .run = apply_forces,
+     .changes_velocity = true},
+    {.name = "xsph",
+     .reads = {position, velocity, density},
+     .writes = {velocity, acceleration},
+     .wanted = uses_xsph,
+     .run = xsph,
+     .changes_velocity = true},
     // Constant density at the positions to come:
-    {.name = "density_solve", .reads = solver_input | FieldSet{density_stiffness},
+    {.name = "density_solve",
+     .reads = solver_input | FieldSet{density_stiffness},
      .writes = FieldSet{velocity, density_stiffness, displacement} | solver_space,
-     .wanted = always, .run = density_solve, .changes_velocity = true},
-    {.name = "shift", .reads = {position, velocity, density, boundary_gradient},
-     .writes = {position, velocity, acceleration, packed}, .wanted = shifts_particles, .run = shift_particles},
-    {.name = "advect", .reads = {position, velocity, displacement}, .writes = {position, velocity}, .wanted = always,
+     .wanted = always,
+     .run = density_solve,
+     .changes_velocity = true},
+    {.name = "shift",
+     .reads = {position, velocity, density, boundary_gradient},
+     .writes = {position, velocity, acceleration, packed},
+     .wanted = shifts_particles,
+     .run = shift_particles},
+    {.name = "advect",
+     .reads = {position, velocity, displacement},
+     .writes = {position, velocity},
+     .wanted = always,
      .run = advect},
-    {.name = "outflow", .reads = particle_state, .writes = particle_state, .wanted = has_open_face,
+    {.name = "outflow",
+     .reads = particle_state,
+     .writes = particle_state,
+     .wanted = has_open_face,
      .run = remove_escaped},
     // The new positions:
     {.name = "sort", .reads = particle_state, .writes = particle_state, .wanted = always, .run = sort_particles},
-    {.name = "neighbours", .reads = {position}, .writes = {}, .wanted = always, .run = find_neighbours,
+    {.name = "neighbours",
+     .reads = {position},
+     .writes = {},
+     .wanted = always,
+     .run = find_neighbours,
      .essential = true},
-    {.name = "boundary", .reads = {position},
-     .writes = boundary_fields | FieldSet{neighbour_number}, .wanted = has_boundary, .run = boundary_sums},
-    {.name = "density", .reads = {position, boundary_gradient, neighbour_number},
-     .writes = {density, diagonal, neighbour_number}, .wanted = always, .run = compute_density},
-    {.name = "gradient_correction", .reads = {position, density}, .writes = {correction_diagonal, correction_mixed},
-     .wanted = is_filled, .run = gradient_correction},
+    {.name = "boundary",
+     .reads = {position},
+     .writes = boundary_fields | FieldSet{neighbour_number},
+     .wanted = has_boundary,
+     .run = boundary_sums},
+    {.name = "density",
+     .reads = {position, boundary_gradient, neighbour_number},
+     .writes = {density, diagonal, neighbour_number},
+     .wanted = always,
+     .run = compute_density},
+    {.name = "gradient_correction",
+     .reads = {position, density},
+     .writes = {correction_diagonal, correction_mixed},
+     .wanted = is_filled,
+     .run = gradient_correction},
     // Only for those who ask:
-    {.name = "pressure", .reads = {density, density_stiffness, divergence_stiffness}, .writes = {pressure},
-     .wanted = always, .run = total_pressure},
-    {.name = "vorticity", .reads = {position, velocity, density}, .writes = {vorticity}, .wanted = always,
+    {.name = "pressure",
+     .reads = {position, density, boundary_gradient, density_stiffness, divergence_stiffness},
+     .writes = {pressure},
+     .wanted = always,
+     .run = total_pressure},
+    {.name = "vorticity",
+     .reads = {position, velocity, density},
+     .writes = {vorticity},
+     .wanted = always,
      .run = compute_vorticity},
 };
 
@@ -98,8 +148,10 @@ FieldSet unused_fields(const World& world) {
   const double limit = world.parameters().time.max_displacement * world.scene.spacing() / world.dt;
   char what[400];
   if (std::isfinite(speed)) {
-    std::snprintf(what, sizeof what, "reached %.3g m/s, more than the %.3g m/s that time.max_displacement allows in a "
-                  "step of %.3g s", speed, limit, world.dt);
+    std::snprintf(what, sizeof what,
+                  "reached %.3g m/s, more than the %.3g m/s that time.max_displacement allows in a "
+                  "step of %.3g s",
+                  speed, limit, world.dt);
   } else {
     std::snprintf(what, sizeof what, "has a velocity that is not finite");
   }

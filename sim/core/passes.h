@@ -24,9 +24,9 @@ struct Pass {
 std::span<const Pass> pass_table();
 
 struct Plan {
-  std::vector<const Pass*> step;      // in order
-  std::vector<const Pass*> prepare;   // the part that depends on positions alone, run once before the first step
-  FieldSet fields;                    // allocated
+  std::vector<const Pass*> step;     // in order
+  std::vector<const Pass*> prepare;  // the part that depends on positions alone, run once before the first step
+  FieldSet fields;                   // allocated
 };
 
 // The passes needed to carry the kept fields on and to fill the fields in `demanded` (by renderer, stats, exports).

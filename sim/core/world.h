@@ -17,15 +17,15 @@ namespace curlew {
 // What the passes of one step found; errors are fractions of the rest density, means over all particles.
 struct StepReport {
   int pressure_iterations = 0, divergence_iterations = 0;
-  int limit_hits = 0;                // solves that ended at their iteration limit
-  double density_error_avg = 0;      // predicted compression after the density solve
-  double density_error_true_avg = 0; // compression of the density sum at the new positions
+  int limit_hits = 0;                 // solves that ended at their iteration limit
+  double density_error_avg = 0;       // predicted compression after the density solve
+  double density_error_true_avg = 0;  // compression of the density sum at the new positions
   double density_error_true_max = 0;
-  double divergence_error = 0;       // compression rate times dt after the divergence solve
-  double divergence_skipped = 0;     // share of particles with too few neighbours for that solve
-  double max_speed = 0;              // m/s
-  double max_acceleration = 0;       // m/s^2
-  std::int64_t wall_contacts = 0;    // particles held at the plane of a wall
+  double divergence_error = 0;     // compression rate times dt after the divergence solve
+  double divergence_skipped = 0;   // share of particles with too few neighbours for that solve
+  double max_speed = 0;            // m/s
+  double max_acceleration = 0;     // m/s^2
+  std::int64_t wall_contacts = 0;  // particles held at the plane of a wall
 };
 
 // Work done since the start, for tests that guard cost without a clock.

@@ -9,12 +9,12 @@
 namespace curlew {
 
 struct Diagnostics {
-  double kinetic = 0;     // J; per metre of depth in 2D, like everything here
-  double rotational = 0;  // J, of microrotation
-  double potential = 0;   // J, from the domain's lowest point
-  Vec3d momentum;         // kg m/s
-  Vec3d angular_momentum; // kg m^2/s, about the origin
-  double max_speed = 0;   // m/s
+  double kinetic = 0;      // J; per metre of depth in 2D, like everything here
+  double rotational = 0;   // J, of microrotation
+  double potential = 0;    // J, from the domain's lowest point
+  Vec3d momentum;          // kg m/s
+  Vec3d angular_momentum;  // kg m^2/s, about the origin
+  double max_speed = 0;    // m/s
 
   double mechanical() const { return kinetic + potential; }
   double total() const { return mechanical() + rotational; }

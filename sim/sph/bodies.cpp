@@ -59,7 +59,8 @@ void BodySamples::collect(const CellShape& shape, std::array<int, 3> cell, Candi
   if (count() > 0) near.collect(shape, grid_, cell, position_, hints);
 }
 
-void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const Kernel& kernel, float rest_density) const {
+void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const Kernel& kernel,
+                      float rest_density) const {
   const auto support2 = static_cast<float>(kernel.support() * kernel.support());
   f8 density{}, x{}, y{}, z{}, pull{}, number{};
   for (std::size_t k = 0; k < near.size; k += 8) {
@@ -87,7 +88,8 @@ void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const K
 }
 
 std::size_t BodySamples::bytes() const {
-  return position_.capacity() * sizeof(Vec3) + (volume_.capacity() + no_slip_.capacity()) * sizeof(float) + grid_.bytes();
+  return position_.capacity() * sizeof(Vec3) + (volume_.capacity() + no_slip_.capacity()) * sizeof(float) +
+         grid_.bytes();
 }
 
 }  // namespace curlew

@@ -139,7 +139,9 @@ void Grid::build(const CellShape& shape, std::span<const Vec3> position, std::ve
   order.resize(n);
   if (n == 0) return cells_.clear();
   find_extent(shape, position);
-  parallel_for(n, [&](std::size_t i) { entries_[i] = {key(shape.cell_of(position[i])), static_cast<std::uint32_t>(i)}; });
+  parallel_for(n, [&](std::size_t i) {
+    entries_[i] = {key(shape.cell_of(position[i])), static_cast<std::uint32_t>(i)};
+  });
   radix_sort();
   collect_cells();
   parallel_for(n, [&](std::size_t k) { order[k] = entries_[k].particle; });
@@ -152,7 +154,8 @@ std::size_t Grid::seek(std::size_t& hint, std::uint64_t key) const {
   for (int steps = 0; cells_[at].key < key; ++steps, ++at) {
     if (steps < 8) continue;
     const auto below = [](const Cell& cell, std::uint64_t k) { return cell.key < k; };
-    at = static_cast<std::size_t>(std::lower_bound(cells_.begin() + static_cast<std::ptrdiff_t>(at), cells_.end(), key, below) - cells_.begin());
+    at = static_cast<std::size_t>(
+        std::lower_bound(cells_.begin() + static_cast<std::ptrdiff_t>(at), cells_.end(), key, below) - cells_.begin());
     break;
   }
   return hint = at;

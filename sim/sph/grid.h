@@ -71,9 +71,9 @@ class Grid {
   template <class Visit>
   void visit_row(std::array<int, 3> from, int to_z, Vec3 shift, std::size_t& hint, Visit&& visit) const;
 
-  std::array<int, 3> low_{};                 // smallest occupied coordinates
-  std::array<std::uint64_t, 3> extent_{};    // coordinates along each axis, with a rim of one
-  std::vector<Cell> cells_;                  // occupied, rising key, and one end mark
+  std::array<int, 3> low_{};               // smallest occupied coordinates
+  std::array<std::uint64_t, 3> extent_{};  // coordinates along each axis, with a rim of one
+  std::vector<Cell> cells_;                // occupied, rising key, and one end mark
   std::vector<Entry> entries_, entries_other_;
 };
 

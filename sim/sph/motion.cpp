@@ -22,11 +22,15 @@ double allowed_step(const World& world, double max_speed, double max_acceleratio
   if (max_speed > 0) dt = std::min(dt, t.cfl * d / max_speed);
   if (max_acceleration > 0) dt = std::min(dt, t.acceleration_factor * std::sqrt(d / max_acceleration));
   if (nu > 0) dt = std::min(dt, t.viscosity_factor * d * d / nu);
+  const MicropolarParameters& m = world.parameters().micropolar;
+  const bool rate = m.xsph_form == MicropolarParameters::xsph_form_t::rate;
+  if (rate && m.gamma > 0) dt = std::min(dt, 0.5 * m.xsph_reference_step / m.gamma);  // smooths by a half at most
   return dt;
 }
 
 double largest_length(std::size_t n, const Array<Vec3>& field) {
-  return std::sqrt(std::max(0.0, particle_max(n, [&](std::size_t i) { return double{dot(field[i], field[i])}; }).value));
+  return std::sqrt(
+      std::max(0.0, particle_max(n, [&](std::size_t i) { return double{dot(field[i], field[i])}; }).value));
 }
 
 }  // namespace
@@ -101,7 +105,7 @@ void xsph(World& world) {
   Fields& f = world.fields;
   const MicropolarParameters& p = world.parameters().micropolar;
   const bool rate = p.xsph_form == MicropolarParameters::xsph_form_t::rate;
-  const double gamma = rate ? 1 - std::pow(1 - p.gamma, world.dt / p.xsph_reference_step) : p.gamma;
+  const double gamma = rate ? p.gamma * world.dt / p.xsph_reference_step : p.gamma;
   const float factor = 2 * static_cast<float>(gamma) * world.mass;
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {

@@ -20,7 +20,8 @@ void choose_time_step(World& world);
 void apply_forces(World& world);
 
 // XSPH: v_i += gamma sum_j (m / mean(rho_i, rho_j)) (v_j - v_i) W_ij, with symmetric weights, which keep momentum
-// (Schechter & Bridson 2012; Bender et al. 2018). As a rate, gamma becomes 1 - (1 - gamma)^(dt / reference step).
+// (Schechter & Bridson 2012; Bender et al. 2018). As a rate, gamma becomes gamma dt / reference
+// step, and dt is limited so that this stays below one half.
 void xsph(World& world);
 
 // Particle shifting for filled domains (Lind et al. 2012; Skillen et al. 2013): x_i -= A h |v|max dt grad C_i with
@@ -37,7 +38,8 @@ void remove_escaped(World& world);
 // The step that a world at rest would like, for its first divergence solve.
 double initial_time_step(const World& world);
 
-// Curl of the velocity in the difference form, sum V_j (v_i - v_j) x grad W_ij (Liu et al. 2020, Eq. 6), into vorticity, 1/s.
+// Curl of the velocity in the difference form, sum V_j (v_i - v_j) x grad W_ij (Liu et al. 2020, Eq. 6), into
+// vorticity, 1/s.
 void compute_vorticity(World& world);
 
 }  // namespace curlew

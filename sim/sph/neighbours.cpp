@@ -56,7 +56,8 @@ void NeighbourLists::build(const CellShape& shape, const Grid& grid, std::span<c
         const std::size_t at = used.fetch_add(size / 8);
         if (at + size / 8 > room) continue;
         std::copy_n(chunk.begin(), size, entries_.begin() + static_cast<std::ptrdiff_t>(at * 8));
-        for (std::uint32_t i = grid.begin(first); i < grid.end(last - 1); ++i) first_group_[i] += static_cast<std::uint32_t>(at);
+        for (std::uint32_t i = grid.begin(first); i < grid.end(last - 1); ++i)
+          first_group_[i] += static_cast<std::uint32_t>(at);
       }
     }
     if (used <= room) break;

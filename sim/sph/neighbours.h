@@ -57,8 +57,10 @@ class Wrapped {
 // Calls f(Open) or f(Wrapped), so that only periodic scenes pay for images.
 template <class F>
 void with_images(const CellShape& shape, F&& f) {
-  if (shape.periodic()) f(Wrapped(shape));
-  else f(Open());
+  if (shape.periodic())
+    f(Wrapped(shape));
+  else
+    f(Open());
 }
 
 // Eight pairs (i, j): x_ij = x_i - x_j, its square, the fourth number of x_j, and the numbers j.
@@ -69,7 +71,8 @@ struct Pairs {
 
 // Calls body(pairs) for each group of neighbours of particle i at `position`.
 template <class Images, class Body>
-inline void for_pairs(const NeighbourLists& lists, const Vec3* position, std::size_t i, const Images& images, Body&& body) {
+inline void for_pairs(const NeighbourLists& lists, const Vec3* position, std::size_t i, const Images& images,
+                      Body&& body) {
   const Vec3 here = position[i];
   const std::uint32_t* j = lists.begin(i);
   for (std::size_t g = lists.groups(i); g > 0; --g, j += 8) {

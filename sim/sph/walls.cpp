@@ -26,7 +26,9 @@ double flat_integral(int k, double s, double end, F&& f) {
 }  // namespace
 
 Walls::Walls(const Domain& domain, int dimension, const Kernel& kernel, double spacing, double mass)
-    : dimension_(dimension), spacing_(static_cast<float>(spacing)), support_(static_cast<float>(kernel.support())),
+    : dimension_(dimension),
+      spacing_(static_cast<float>(spacing)),
+      support_(static_cast<float>(kernel.support())),
       layers_(static_cast<int>(std::ceil(kernel.support() / spacing - 0.5))) {
   for (int axis = 0; axis < dimension; ++axis) {
     if (domain.periodic[axis]) continue;
@@ -56,7 +58,8 @@ Walls::Walls(const Domain& domain, int dimension, const Kernel& kernel, double s
   };
   friction_.fill(end, friction, [&](double s) {
     const double e = 1e-4 * end;
-    return (friction(std::min(end, s + e)) - friction(std::max(0.0, s - e))) / (std::min(end, s + e) - std::max(0.0, s - e));
+    return (friction(std::min(end, s + e)) - friction(std::max(0.0, s - e))) /
+           (std::min(end, s + e) - std::max(0.0, s - e));
   });
 }
 
@@ -112,7 +115,8 @@ void Walls::add_overlap(WallSum& total, const Near* const* near, int number) con
     const float slope_over_s = slope / std::max(s, 1e-6f * spacing_);
     total.gradient.w += sign * value;
     for (int f = 0; f < number; ++f) {
-      total.gradient[near[f]->face->axis] += sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
+      total.gradient[near[f]->face->axis] +=
+          sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
     }
   }
 }

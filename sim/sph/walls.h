@@ -4,13 +4,12 @@
 // 2a away where a is the particle's distance from the plane; the others stay where the lattice has them. Smearing each
 // layer evenly over its plane gives the density that the wall adds,
 //   lambda(a) = m / d^(D-1)  sum_n  I_(D-1)(s_n),     s_0 = 2a,  s_n = a + (n + 1/2) d,
-// I_k(s): integral of W over a k-flat at distance s. Fluid on a lattice that touches the wall (a = d/2) has rest density
-// to 0.03 % (0.16 % in 2D), and since the image moves against the particle, grad lambda carries the factor two that a
-// mirrored pressure and a mirrored normal velocity have: with layers that stay put the wall pushes half as hard as fluid
-// would, and the lowest layer has to creep up to the plane (0.19 d) before it is held.
-// Where faces meet, the layers shared by two (an edge) or three (a corner) are counted once: subtract the I_(D-2), add
-// the I_(D-3).
-// No-slip: the layers move so that velocity vanishes at the plane, v_b = v_w - (s_b/a)(v - v_w) (Morris et al. 1997).
+// I_k(s): integral of W over a k-flat at distance s. Fluid on a lattice that touches the wall (a = d/2) has rest
+// density to 0.03 % (0.16 % in 2D), and since the image moves against the particle, grad lambda carries the factor two
+// that a mirrored pressure and a mirrored normal velocity have: with layers that stay put the wall pushes half as hard
+// as fluid would, and the lowest layer has to creep up to the plane (0.19 d) before it is held. Where faces meet, the
+// layers shared by two (an edge) or three (a corner) are counted once: subtract the I_(D-2), add the I_(D-3). No-slip:
+// the layers move so that velocity vanishes at the plane, v_b = v_w - (s_b/a)(v - v_w) (Morris et al. 1997).
 #pragma once
 
 #include <vector>
@@ -100,8 +99,8 @@ class Walls {
   float lattice_points(float distance) const;
 
   std::vector<Face> faces_;
-  DistanceTable flat_[3];    // I_k, multiplied by m / d^k
-  DistanceTable friction_;   // integral of 2 r |W'| / (r^2 + 0.01 h^2) over a (D-1)-flat, multiplied by d
+  DistanceTable flat_[3];   // I_k, multiplied by m / d^k
+  DistanceTable friction_;  // integral of 2 r |W'| / (r^2 + 0.01 h^2) over a (D-1)-flat, multiplied by d
   int dimension_ = 3;
   float spacing_ = 0, support_ = 0;
   int layers_ = 0;  // that can lie within the support

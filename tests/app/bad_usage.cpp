@@ -330,6 +330,17 @@ TEST_CASE("the program refuses every mesh of tests/bad with its sentence") {
   CHECK(meshes > 15);
 }
 
+TEST_CASE("without a display the window says so, and how to go on without one") {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"gui"}, {"gui", "pillars"}}) {
+    const Outcome outcome = curlew_program(words, {{}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}, {}, 20});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.starts_with("curlew: "));
+    CHECK(outcome.err.ends_with(" curlew run pillars --frames\n"));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  }
+}
+
 TEST_CASE("names with line breaks and odd bytes give one line") {
   const Places folder;
   check_refused(folder, {"run", "dam\nbreak"},

@@ -17,12 +17,12 @@ Scene still_tank(int particles_per_metre) {
   return scene;
 }
 
-// Pressure at the floor, Pa: the mean of the lowest layer, carried down from its mean height.
+// Pressure at the floor, Pa: the mean over the kernel's support above it, carried down from its mean height.
 double floor_pressure(const World& world) {
   double pressure = 0, height = 0, number = 0;
   for (std::size_t i = 0; i < world.count; ++i) {
     const double y = double{world.fields.position[i].y};
-    if (y > world.scene.spacing()) continue;
+    if (y > world.kernel.support()) continue;
     pressure += double{world.fields.pressure[i]};
     height += y;
     ++number;

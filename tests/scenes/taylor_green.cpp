@@ -20,7 +20,8 @@ double velocity_error(const World& world, double decay) {
   double difference = 0, exact = 0;
   for (std::size_t i = 0; i < world.count; ++i) {
     const Vec3d x = to_double(world.fields.position[i]), v = to_double(world.fields.velocity[i]);
-    const Vec3d right{-decay * std::cos(tau * x.x) * std::sin(tau * x.y), decay * std::sin(tau * x.x) * std::cos(tau * x.y), 0};
+    const Vec3d right{-decay * std::cos(tau * x.x) * std::sin(tau * x.y),
+                      decay * std::sin(tau * x.x) * std::cos(tau * x.y), 0};
     difference += length(v - right);
     exact += length(right);
   }
@@ -38,9 +39,10 @@ TEST_CASE("Taylor-Green at Re 100 decays as it must, without voids", "[taylor-gr
   while (world.time < 1) step(world, plan);
   const double decay = std::exp(-2 * tau * tau * scene.parameters.viscosity.nu * world.time);
   const double error = velocity_error(world, decay);
-  const double kinetic = particle_sum(world.count, [&](std::size_t i) {
-                           return double{dot(world.fields.velocity[i], world.fields.velocity[i])} / 2;
-                         }) / static_cast<double>(world.count);
+  const double kinetic =
+      particle_sum(world.count,
+                   [&](std::size_t i) { return double{dot(world.fields.velocity[i], world.fields.velocity[i])} / 2; }) /
+      static_cast<double>(world.count);
   CAPTURE(error, kinetic / (0.25 * decay * decay));
   CHECK(error < 0.04);  // measured: 0.02; the aim was 0.08
   CHECK(kinetic == Approx(0.25 * decay * decay).epsilon(0.06));

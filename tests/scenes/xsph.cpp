@@ -33,7 +33,7 @@ TEST_CASE("the rate form of XSPH damps alike at dt and at dt/2, and keeps moment
   const double gamma = GENERATE(0.02, 0.1);
   CAPTURE(gamma);
   const Run whole = smoothed_wave(2e-3, gamma, rate), half = smoothed_wave(1e-3, gamma, rate);
-  CHECK(decay_rate(whole) > 0.5);  // there is something to compare
+  CHECK(decay_rate(whole) > 0.2);  // there is something to compare
   CHECK(decay_rate(whole) == Approx(decay_rate(half)).epsilon(0.02));
   const double drift = whole.largest([](const Moment& m) { return length(m.sums.momentum); });
   const double scale = absolute_momentum(smoothed_wave(seconds, 0, rate).world);

@@ -51,7 +51,8 @@ TEST_CASE("eight at a time equals one at a time", "[kernel][simd]") {
       for (int lane = 0; lane < 8; ++lane) {
         const double r = std::sqrt(double{r2[lane]});
         CHECK(value[lane] == Approx(kernel.value(r)).epsilon(1e-5).margin(1e-6 * kernel.value(0)));
-        if (r > 0) CHECK(slope[lane] * r == Approx(kernel.derivative(r)).epsilon(1e-5).margin(1e-5 * kernel.value(0) / 0.02));
+        if (r > 0)
+          CHECK(slope[lane] * r == Approx(kernel.derivative(r)).epsilon(1e-5).margin(1e-5 * kernel.value(0) / 0.02));
       }
     }
   }

@@ -111,7 +111,8 @@ TEST_CASE("neighbours of nasty clouds equal brute force", "[neighbours]") {
   }
   SECTION("on the seam of a periodic box") {
     auto cloud = random_cloud(400, 1, 3, 5);
-    for (std::size_t k = 0; k < cloud.size(); ++k) cloud[k][static_cast<int>(k % 3)] = k % 2 ? 0.0f : std::nextafter(1.0f, 0.0f);
+    for (std::size_t k = 0; k < cloud.size(); ++k)
+      cloud[k][static_cast<int>(k % 3)] = k % 2 ? 0.0f : std::nextafter(1.0f, 0.0f);
     check_against_brute_force(box(1, true), 3, cloud);
   }
   SECTION("no particle at all") {

@@ -56,7 +56,8 @@ TEST_CASE("every parameter can be set, from a number and from text, and reads ba
 }
 
 TEST_CASE("wrong keys and values give one helpful sentence", "[params]") {
-  CHECK_THROWS_WITH(parameter_row("viscosity.mu"), "there is no parameter \"viscosity.mu\"; did you mean \"viscosity.nu\"?");
+  CHECK_THROWS_WITH(parameter_row("viscosity.mu"),
+                    "there is no parameter \"viscosity.mu\"; did you mean \"viscosity.nu\"?");
   CHECK_THROWS_WITH(parameter_row("nu"), "there is no parameter \"nu\"; did you mean \"viscosity.nu\"?");
   CHECK_THROWS_WITH(parameter_row("kangaroo"), "there is no parameter \"kangaroo\"; `curlew params` lists them");
   CHECK(error_of("viscosity.nu", "wet") == "here: viscosity.nu is \"wet\", expected a number from 0 to 100 m^2/s");

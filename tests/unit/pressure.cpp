@@ -48,10 +48,12 @@ TEST_CASE("the divergence solve leaves no compression beyond its tolerance", "[p
   const Plan plan = make_plan(world);
   prepare(world, plan);
   world.dt = 1e-3;
-  const auto speed_before = particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
+  const auto speed_before =
+      particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
   divergence_solve(world);
   CHECK(world.report.divergence_error <= world.parameters().pressure.divergence_tolerance);
-  const auto speed_after = particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
+  const auto speed_after =
+      particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
   CHECK(speed_after < speed_before);  // a projection takes energy
 }
 
@@ -65,7 +67,8 @@ TEST_CASE("pressure forces keep momentum in a periodic box", "[pressure]") {
   };
   const double before[] = {momentum(0), momentum(1), momentum(2)};
   density_solve(world);
-  const double scale = particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
+  const double scale =
+      particle_sum(world.count, [&](std::size_t i) { return double{length(world.fields.velocity[i])}; });
   for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(momentum(axis) - before[axis]) < 1e-6 * scale);
 }
 
@@ -92,7 +95,8 @@ TEST_CASE("one relaxed Jacobi step moves each stiffness by residual over diagona
   const double excess = double{world.fields.density[0]} - 1000 + world.dt * 30 * gradient;
   REQUIRE(excess > 0);
   density_solve(world);
-  CHECK(world.fields.density_stiffness[0] == Approx(excess / (world.dt * world.dt) / (gradient * gradient)).epsilon(1e-3));
+  CHECK(world.fields.density_stiffness[0] ==
+        Approx(excess / (world.dt * world.dt) / (gradient * gradient)).epsilon(1e-3));
   CHECK(world.fields.diagonal[0] == Approx(gradient * gradient).epsilon(1e-4));
   // What is left compresses to rest density and no farther.
   CHECK(world.fields.velocity[0].y == Approx(-30 + excess / (world.dt * gradient)).epsilon(1e-3));
@@ -110,7 +114,8 @@ TEST_CASE("both iterations find the same pressure", "[pressure]") {
     world.dt = 1e-3;
     density_solve(world);
     CHECK(world.report.limit_hits == 0);
-    total.push_back(particle_sum(world.count, [&](std::size_t i) { return double{world.fields.density_stiffness[i]}; }));
+    total.push_back(
+        particle_sum(world.count, [&](std::size_t i) { return double{world.fields.density_stiffness[i]}; }));
   }
   CHECK(total[0] == Approx(total[1]).epsilon(0.01));
 }

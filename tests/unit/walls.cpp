@@ -65,7 +65,8 @@ TEST_CASE("the wall's gradient is that of its density, everywhere", "[walls]") {
         above[axis] += e;
         below[axis] -= e;
         if (below[axis] < 0 || above[axis] > 1) continue;
-        const double slope = (double{setup.walls.sum(above).gradient.w} - double{setup.walls.sum(below).gradient.w}) / (2 * double{e});
+        const double slope =
+            (double{setup.walls.sum(above).gradient.w} - double{setup.walls.sum(below).gradient.w}) / (2 * double{e});
         CHECK(gradient[axis] == Approx(slope).epsilon(0.02).margin(20));
       }
     }
