@@ -253,7 +253,7 @@ class Places {
 
 void check_refused(const Places& folder, const std::vector<std::string>& words, const Row& row) {
   const auto before = folder.files();
-  const Outcome outcome = curlew_program(words, {folder.path(), row.environment, row.out, 20});
+  const Outcome outcome = curlew_program(words, {folder.path(), row.environment, row.out});
   INFO("curlew " << row.line);
   CHECK_FALSE(outcome.too_slow);
   CHECK(outcome.signal == 0);
@@ -332,7 +332,7 @@ TEST_CASE("the program refuses every mesh of tests/bad with its sentence") {
 
 TEST_CASE("without a display the window says so, and how to go on without one") {
   for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"gui"}, {"gui", "pillars"}}) {
-    const Outcome outcome = curlew_program(words, {{}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}, {}, 20});
+    const Outcome outcome = curlew_program(words, {{}, {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}});
     CHECK(outcome.code == 4);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.starts_with("curlew: "));
@@ -384,7 +384,7 @@ TEST_CASE("a disk that fills up gives a sentence and leaves no half file") {
     const TemporaryFolder folder;
     INFO(options << " " << kilobytes);
     const std::string command = "ulimit -f " + kilobytes + "; exec " CURLEW_PROGRAM " " + small + "--quiet " + options;
-    const Outcome outcome = run_program({"bash", "-c", command}, {folder.path(), {}, {}, 60});
+    const Outcome outcome = run_program({"bash", "-c", command}, {folder.path()});
     CHECK(outcome.signal == 0);
     CHECK(outcome.code == 2);
     CHECK(outcome.err == "curlew: " + sentence + "\n");
@@ -401,7 +401,7 @@ TEST_CASE("a disk that fills up gives a sentence and leaves no half file") {
 TEST_CASE("standard streams that are closed do not end up in files") {
   const TemporaryFolder folder;
   const std::string program = CURLEW_PROGRAM;
-  const Setting here{folder.path(), {}, {}, 60};
+  const Setting here{folder.path()};
   const auto start = [&](const std::string& rest) {
     return run_program({"bash", "-c", "exec " + program + " " + rest}, here);
   };
@@ -419,7 +419,7 @@ TEST_CASE("memory that runs out is told") {
   const Outcome outcome = run_program(
       {"bash", "-c",
        "ulimit -v 400000; exec " CURLEW_PROGRAM " run dam_break --radius 0.0025 --steps 1 --out new --threads 1"},
-      {folder.path(), {}, {}, 60});
+      {folder.path()});
   CHECK(outcome.code == 2);
   CHECK(outcome.err == "curlew: memory ran out; use a larger particle radius\n");
 }
@@ -433,8 +433,8 @@ TEST_CASE("a checkpoint whose particles lie far outside is refused or run, but n
     curlew::Checkpoint moved = checkpoint;
     moved.fields.position[7] = {far, -far, far};
     put_file(folder / "far.curlew", CheckpointBytes(moved, moved.fields).bytes);
-    const Outcome outcome = curlew_program(words_of("run --resume far.curlew --steps 3 --out new --overwrite --quiet"),
-                                           {folder.path(), {}, {}, 20});
+    const Outcome outcome =
+        curlew_program(words_of("run --resume far.curlew --steps 3 --out new --overwrite --quiet"), {folder.path()});
     CHECK(outcome.signal == 0);
     CHECK_FALSE(outcome.too_slow);
   }

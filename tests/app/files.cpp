@@ -199,7 +199,7 @@ TEST_CASE("each frame has its particle file, in three formats, and nothing half 
 
 TEST_CASE("a quiet run says nothing, and else plain lines go to where they belong") {
   const TemporaryFolder folder;
-  const Setting here{folder.path(), {}, {}, 60};
+  const Setting here{folder.path()};
   const Outcome quiet = curlew_program(words_of(small + " --out a --quiet"), here);
   CHECK(quiet.code == 0);
   CHECK(quiet.out.empty());
@@ -214,7 +214,7 @@ TEST_CASE("a quiet run says nothing, and else plain lines go to where they belon
 
 TEST_CASE("without --out a run stands in out/ under the name of its scene's file") {
   const TemporaryFolder folder;
-  const Setting here{folder.path(), {}, {}, 60};
+  const Setting here{folder.path()};
   put_file(folder / "my scene.json", R"({"curlew": 1, "name": "../../not here", "particle_radius": 0.1,
     "domain": {"min": [0, 0, 0], "max": [1, 1, 1]}, "fluid": [{"box": {"min": [0, 0, 0], "max": [1, 0.5, 1]}}]})");
   CHECK(curlew_program({"run", "my scene.json", "--steps", "1"}, here).code == 0);
@@ -312,8 +312,7 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
        {Case{"--set viscosity.nu=10 --set time.viscosity_factor=10 --set time.fixed_step=0.01", "apply_forces"},
         Case{"--set time.fixed_step=0.05", "density_solve"}}) {
     INFO(options);
-    const Outcome outcome =
-        curlew_program(words_of(base + options + " --particles-out ply"), {folder.path(), {}, {}, 60});
+    const Outcome outcome = curlew_program(words_of(base + options + " --particles-out ply"), {folder.path()});
     CHECK(outcome.code == 3);
     const Table table = read_table(folder / "a/stats.csv");
     const std::string step = std::to_string(table.rows.size());
@@ -337,9 +336,8 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
 
 TEST_CASE("a state before divergence goes on with gentler settings") {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      curlew_program(words_of("run dam_break --particles 1k --steps 50 --out a --quiet --set time.fixed_step=0.3"),
-                     {folder.path(), {}, {}, 60});
+  const Outcome outcome = curlew_program(
+      words_of("run dam_break --particles 1k --steps 50 --out a --quiet --set time.fixed_step=0.3"), {folder.path()});
   REQUIRE(outcome.code == 3);
   const Table table =
       run_in(folder.path(), "run --resume a/checkpoints/diverged.curlew --set time.fixed_step=0.001 --steps 30", "b");

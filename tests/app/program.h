@@ -18,10 +18,10 @@ struct Outcome {
 };
 
 struct Setting {
-  std::string folder;                                             // the working folder
-  std::map<std::string, std::optional<std::string>> environment;  // changes; nullopt removes
-  std::string out;         // a file such as /dev/full for standard output; then Outcome::out stays empty
-  double time_limit = 60;  // s
+  std::string folder = {};                                             // the working folder
+  std::map<std::string, std::optional<std::string>> environment = {};  // changes; nullopt removes
+  std::string out = {};     // a file such as /dev/full for standard output; then Outcome::out stays empty
+  double time_limit = 100;  // s; generous, since others may need the cores
 };
 
 // A program that runs. The destructor ends it.

@@ -76,7 +76,7 @@ nlohmann::json read_json(const std::string& file) { return nlohmann::json::parse
 Table run_in(const std::string& folder, const std::string& line, const std::string& name) {
   std::vector<std::string> words = words_of(line);
   words.insert(words.end(), {"--out", name, "--quiet"});
-  const Outcome outcome = curlew_program(words, {folder, {}, {}, 120});
+  const Outcome outcome = curlew_program(words, {folder, {}, {}, 240});
   INFO(line << "\n" << outcome.err);
   REQUIRE(outcome.code == 0);
   return read_table(folder + "/" + name + "/stats.csv");
