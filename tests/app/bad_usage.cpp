@@ -201,9 +201,8 @@ class Places {
     put_file(folder_ / "done/run.json", "{}\n");
     put_file(folder_ / "half/stats.csv", "step\n0\n");
     fs::create_directory(folder_ / "folder");
-    const Outcome outcome =
-        curlew_program(words_of("run dam_break --particles 300 --steps 2 --checkpoint-every 0.001 --out begun"),
-                       {folder_.path(), {}, {}, 60});
+    const Outcome outcome = curlew_program(
+        words_of("run dam_break --particles 300 --steps 2 --checkpoint-every 0.001 --out begun"), {folder_.path()});
     REQUIRE(outcome.code == 0);
     fs::remove(folder_ / "begun/checkpoints/000002.curlew");
     CheckpointBytes good(file_text(folder_ / "begun/checkpoints/000001.curlew"));
