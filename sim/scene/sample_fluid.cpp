@@ -47,8 +47,9 @@ std::array<LatticeAxis, 3> lattice_of(const Shape& shape, const Scene& scene) {
   return axes;
 }
 
-// How near to a body's surface fluid may begin, in radii. One layer of samples stands for the whole solid (Akinci et al.
-// 2012), so it reaches farther than a wall: nearer than this, fluid at rest density would begin compressed and burst.
+// How near to a body's surface fluid may begin, in radii. One layer of samples stands for the whole solid (Akinci et
+// al. 2012), so it reaches farther than a wall: nearer than this, fluid at rest density would begin compressed and
+// burst.
 constexpr double body_clearance = 2.2;
 
 // Which points of the lattices may hold particles.

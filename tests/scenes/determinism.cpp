@@ -78,6 +78,6 @@ TEST_CASE("a mirrored scene gives the mirrored result", "[scene][!mayfail]") {
   for (std::size_t i = 0; i < found.size(); ++i) farthest = std::max(farthest, length(found[i] - expected[i]));
   // The same physics; round-off differs with the order of the sums, and splashing water makes it grow.
   CHECK(plain.now().sums.kinetic == Approx(mirror.now().sums.kinetic).epsilon(1e-4));
-  CHECK(farthest <= 0.1 * scene.spacing());
+  CHECK(farthest <= 0.01 * scene.spacing());
   CHECK(plain.now().sums.max_speed > 0.5);
 }
