@@ -47,8 +47,8 @@ std::string run_of(const std::filesystem::path& checkpoint) {
 void check_same(const RunOptions& options, const Checkpoint& checkpoint) {
   using std::filesystem::path;
   if (!options.scene.empty() && path(options.scene).stem() != path(checkpoint.scene_file).stem()) {
-    throw InputError("--resume goes on with the scene of the checkpoint, " + in_quotes(checkpoint.scene_file) +
-                     "; leave out " + in_quotes(options.scene));
+    throw InputError("--resume goes on with the scene of the checkpoint, " + checkpoint.scene_file + "; leave out " +
+                     options.scene);
   }
   if (options.seed != 0 && options.seed != checkpoint.seed) {
     throw InputError("--resume keeps the seed of the checkpoint, which is " + std::to_string(checkpoint.seed) +

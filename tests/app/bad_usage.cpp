@@ -184,7 +184,7 @@ const std::vector<Row> checkpoints = {
     {"run --resume good.curlew --radius 0.1",
      "--resume keeps the particles of the checkpoint; leave out --radius and --particles"},
     {"run pillars --resume good.curlew",
-     R"(--resume goes on with the scene of the checkpoint, "{assets}/scenes/dam_break.json"; leave out "pillars")"},
+     "--resume goes on with the scene of the checkpoint, {assets}/scenes/dam_break.json; leave out pillars"},
     {"run --resume good.curlew --seed 7", "--resume keeps the seed of the checkpoint, which is 0; leave out --seed"},
     {"run --resume good.curlew --out done", "done holds a finished run; choose another --out or give --overwrite"},
     {"run --resume good.curlew --set time.clf=1",

@@ -68,10 +68,30 @@ TEST_CASE("a column of water on a body at rest does not leak", "[scene][!mayfail
     scene.bodies.push_back({"front", Box{{edge, top, 0.5 - edge}, {0.5 - edge, 2, 2}}, WallKind::slip});
   }
   Run run(scene);
-  const double start = run.now().sums.potential;
-  run.simulate(1);
+  run.simulate(0.5);  // it settles
+  const double settled = run.now().sums.potential;
+  run.simulate(0.5);
   CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
   CHECK(lowest(run.world) >= top);
-  CHECK(run.now().sums.potential == Approx(start).epsilon(0.02));
+  CHECK(run.now().sums.potential == Approx(settled).epsilon(0.01));
   CHECK(run.energy_rise(0.5) <= 1e-3);
+}
+
+// Known to fail: bodies are sampled on their surface, where one layer holds the fluid 0.93 to 0.97 spacings off.
+TEST_CASE("water stands half a spacing off a body, as it does off a wall", "[scene][!mayfail]") {
+  const double top = 0.25;
+  Scene scene = empty_box({0.5, 1.25, 0.5}, 24);
+  scene.parameters.viscosity.nu = 0.01;
+  scene.fluid.push_back({Box{{0, top, 0}, {0.5, top + 0.75, 0.5}}, {}});
+  scene.bodies.push_back({"floor", Box{{-1, -1, -1}, {2, top, 2}}, WallKind::slip});
+  Run run(scene);
+  run.simulate(1);
+  double sum = 0, number = 0;
+  for (const Vec3d& x : positions_by_id(run.world)) {
+    if (x.y - top > 1.2 * scene.spacing()) continue;
+    sum += x.y - top;
+    ++number;
+  }
+  CHECK(number == Approx(12 * 12).epsilon(0.15));  // one layer
+  CHECK(sum / number == Approx(0.5 * scene.spacing()).margin(0.1 * scene.spacing()));
 }

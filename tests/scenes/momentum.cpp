@@ -18,14 +18,10 @@ Scene periodic_box_with_drop() {
 
 // Particles off their lattice by up to 0.2 spacings, and a random velocity of each on top of the drift.
 World disordered(const Scene& scene) {
-  World world = make_world(scene);
-  std::mt19937 random(7);
-  const auto d = static_cast<float>(scene.spacing());
-  std::uniform_real_distribution<float> shift(-0.2f * d, 0.2f * d), speed(-0.3f, 0.3f);
-  for (std::size_t i = 0; i < world.count; ++i) {
-    world.fields.position[i] += Vec3{shift(random), shift(random), shift(random)};
-    world.fields.velocity[i] += Vec3{speed(random), speed(random), speed(random)};
-  }
+  World world = jittered(make_world(scene), 0.2);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> speed(-0.3f, 0.3f);
+  for (Vec3& v : world.fields.velocity) v += Vec3{speed(random), speed(random), speed(random)};
   return world;
 }
 

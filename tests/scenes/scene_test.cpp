@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "sim/core/parallel.h"
@@ -46,6 +47,16 @@ Fluid with_shear_wave(Shape shape, double speed) {
   fluid.velocity.field = InitialVelocity::Field::shear_wave;
   fluid.velocity.speed = speed;
   return fluid;
+}
+
+World jittered(World world, double spacings) {
+  std::mt19937 random(7);
+  const auto most = static_cast<float>(spacings * world.scene.spacing());
+  std::uniform_real_distribution<float> shift(-most, most);
+  for (Vec3& x : world.fields.position) {
+    for (int axis = 0; axis < world.scene.dimension; ++axis) x[axis] += shift(random);
+  }
+  return world;
 }
 
 Run::Run(const Scene& scene, FieldSet demanded) : Run(make_world(scene), demanded) {}

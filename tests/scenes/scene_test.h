@@ -25,6 +25,9 @@ Scene empty_box(Vec3d size, int particles_per_metre);
 Fluid moving(Shape shape, Vec3d velocity);
 Fluid with_shear_wave(Shape shape, double speed);
 
+// The world with its particles moved at random, by up to so many spacings along each axis.
+World jittered(World world, double spacings);
+
 // What the world was like after a step.
 struct Moment {
   double time = 0, dt = 0;  // s
