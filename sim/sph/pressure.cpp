@@ -92,6 +92,39 @@ struct Progress {
   }
 };
 
+// Scales the warm start in packed.w and iterate, and its acceleration, to the multiple s of itself with the least
+// J(s) = -s sum k source + s^2/2 sum |a|^2. In the divergence solve J is the kinetic energy that k adds, and a warm
+// start that no longer fits, after an impact or a jump of the time step, pushes energy in and may still lie within the
+// tolerance: the dam break gained 0.4 % in 0.14 s. Where 1/2 < s < 1 nothing is gained, and the solve that follows
+// sorts out particle by particle what to take back in fewer iterations (6.9 against 7.9 a step).
+void scale_warm_start(World& world) {
+  Fields& f = world.fields;
+  struct Sums {
+    double work = 0, square = 0;
+    void operator+=(const Sums& other) {
+      work += other.work;
+      square += other.square;
+    }
+  };
+  const Sums sums = ordered_sum<Sums>(world.count, [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t i = begin; i < end; ++i) {
+      const float k = f.packed[i].w;
+      if (k != 0) part.work += double{k} * f.source[i];
+      part.square += dot(f.acceleration[i], f.acceleration[i]);
+    }
+    return part;
+  });
+  if (sums.square <= 0) return;
+  const auto scale = static_cast<float>(std::max(0.0, sums.work / sums.square));
+  if (scale > 0.5f && scale < 1) return;
+  parallel_for(world.count, [&](std::size_t i) {
+    f.packed[i].w *= scale;
+    f.iterate[i] *= scale;
+    f.acceleration[i] = scale * f.acceleration[i];
+  });
+}
+
 // One sweep: the residual at the iterate in packed.w, and the relaxed Jacobi move from there. Leaves the iterate in
 // `stiffness` and the moved value in packed.w.
 Progress relax(World& world, Array<float>& stiffness, float relaxation, bool corrected) {
@@ -165,6 +198,7 @@ Outcome solve_pressure(World& world, const Solve& solve) {
   bool more = true;
   while (more && outcome.iterations < solve.max_iterations) {
     accelerate(world);
+    if (p.warm_start && outcome.iterations == 0) scale_warm_start(world);
     const Progress progress = relax(world, solve.stiffness, relaxation, solve.corrected);
     outcome.error = progress.error * scale;
     ++outcome.iterations;
