@@ -33,8 +33,7 @@ double lowest(const World& world) {
 
 }  // namespace
 
-// Known to fail, and to be mended in the solver (README, "What is not good yet"): the bounds are what we aim at.
-TEST_CASE("water poured on a body runs off it and never enters", "[scene][!mayfail]") {
+TEST_CASE("water poured on a body runs off it and never enters", "[scene]") {
   const auto [name, shape] = GENERATE(table<std::string, Shape>({
       {"sphere", Sphere{{0.5, 0.35, 0.5}, 0.3}},
       {"cylinder", Cylinder{{0.5, 0.4, -0.2}, {0.5, 0.4, 1.2}, 0.2}},
@@ -51,8 +50,7 @@ TEST_CASE("water poured on a body runs off it and never enters", "[scene][!mayfa
   CHECK(lowest(run.world) < 0.05);  // it did run off
 }
 
-// Known to fail, and to be mended in the solver (README, "What is not good yet"): the bounds are what we aim at.
-TEST_CASE("a column of water on a body at rest does not leak", "[scene][!mayfail]") {
+TEST_CASE("a column of water on a body at rest does not leak", "[scene]") {
   const double top = 0.25;
   Scene scene = empty_box({0.5, 1.25, 0.5}, 24);
   scene.parameters.viscosity.nu = 0.01;
