@@ -92,7 +92,7 @@ class Run {
     plan_ = make_plan(world_, StepRecorder::demand(options.full_columns) | output_.demand());
     prepare(world_, plan_);
     StepRecorder::Settings settings{options.full_columns, options.hash_passes, resumed_};
-    recorder_ = std::make_unique<StepRecorder>(folder_, world_, plan_, settings);
+    recorder_ = std::make_unique<StepRecorder>(folder_, plan_, settings);
     summary_.resumed_from = options.resume;
     summary_.changed_on_resume = resumed_ && !options.settings.empty();
     next_frame_ = resumed_ ? frame_of(world_.time) + 1 : 0;

@@ -31,13 +31,12 @@ std::string text(std::int64_t value) { return std::to_string(value); }
 
 FieldSet StepRecorder::demand(bool full_columns) { return full_columns ? FieldSet{FieldId::vorticity} : FieldSet{}; }
 
-StepRecorder::StepRecorder(const std::string& folder, const World& world, const Plan& plan, const Settings& settings)
+StepRecorder::StepRecorder(const std::string& folder, const Plan& plan, const Settings& settings)
     : settings_(settings),
       passes_(plan.step),
       pass_ms_(passes_.size()),
       loss_(passes_.size()),
-      total_ms_(passes_.size()),
-      outside_counter_(world.scene) {
+      total_ms_(passes_.size()) {
   stats_ = std::make_unique<CsvWriter>(folder + "/stats.csv", columns(plan), settings.resume_after);
   if (settings.hash_passes > 0) {
     const std::vector<std::string> names{"step", "pass", "hash"};
@@ -104,7 +103,7 @@ void StepRecorder::end_step(double milliseconds) { step_ms_ = milliseconds; }
 
 void StepRecorder::write_row(const World& world, bool last) {
   diagnostics_ = diagnose(world);
-  outside_ = outside_counter_.count(world);
+  outside_ = count_outside(world);
   const Diagnostics& d = diagnostics_;
   const StepReport& r = world.report;
   std::vector<std::string> cells{text(world.step),

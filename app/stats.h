@@ -20,7 +20,7 @@ class StepRecorder : public PassObserver {
     std::optional<std::int64_t> resume_after;
   };
   // Writes into `folder`; the plan's passes name the columns.
-  StepRecorder(const std::string& folder, const World& world, const Plan& plan, const Settings& settings);
+  StepRecorder(const std::string& folder, const Plan& plan, const Settings& settings);
 
   // Fields that a row of full columns reads.
   static FieldSet demand(bool full_columns);
@@ -46,7 +46,6 @@ class StepRecorder : public PassObserver {
   double step_ms_ = 0, kinetic_ = 0;
   Diagnostics diagnostics_;
   std::int64_t outside_ = 0;
-  OutsideCounter outside_counter_;
   std::unique_ptr<CsvWriter> stats_, hashes_;
 };
 

@@ -19,6 +19,7 @@ World make_empty_world(const Scene& scene, std::uint64_t seed) {
   world.cells = make_cell_shape(scene.domain, scene.dimension, world.kernel.support());
   world.walls = Walls(scene.domain, scene.dimension, world.kernel, d, mass);
   world.bodies = BodySamples(scene, world.cells, world.kernel);
+  world.obstacles = std::make_shared<const Obstacles>(scene);
   return world;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sim/core/fields.h"
@@ -10,6 +11,7 @@
 #include "sim/sph/grid.h"
 #include "sim/sph/kernel.h"
 #include "sim/sph/neighbours.h"
+#include "sim/sph/obstacles.h"
 #include "sim/sph/walls.h"
 
 namespace curlew {
@@ -25,7 +27,7 @@ struct StepReport {
   double divergence_skipped = 0;   // share of particles with too few neighbours for that solve
   double max_speed = 0;            // m/s
   double max_acceleration = 0;     // m/s^2
-  std::int64_t wall_contacts = 0;  // particles held at the plane of a wall
+  std::int64_t wall_contacts = 0;  // particles held at a wall or a body
 };
 
 // Work done since the start, for tests that guard cost without a clock.
@@ -50,6 +52,7 @@ struct World {
   CellShape cells;
   Walls walls;
   BodySamples bodies;
+  std::shared_ptr<const Obstacles> obstacles;  // never null
 
   std::size_t count = 0;  // particles
   Fields fields;

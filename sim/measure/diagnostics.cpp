@@ -64,14 +64,7 @@ double helicity(const World& world) {
          });
 }
 
-OutsideCounter::OutsideCounter(const Scene& scene) {
-  for (const Body& body : scene.bodies) shapes_.push_back(body.shape);
-  for (const Shape& shape : shapes_) {
-    obstacles_.push_back({bounds(shape, scene.dimension, scene.domain), ShapeProbe(shape, scene.dimension)});
-  }
-}
-
-std::int64_t OutsideCounter::count(const World& world) const {
+std::int64_t count_outside(const World& world) {
   const Domain& domain = world.scene.domain;
   const int dimension = world.scene.dimension;
   const auto beyond_wall = [&](Vec3 x) {
@@ -85,17 +78,9 @@ std::int64_t OutsideCounter::count(const World& world) const {
     }
     return false;
   };
-  const auto in_body = [&](Vec3d x) {
-    for (const auto& [box, probe] : obstacles_) {
-      bool near = true;
-      for (int axis = 0; axis < dimension; ++axis) near = near && x[axis] >= box.min[axis] && x[axis] <= box.max[axis];
-      if (near && probe.inside(x)) return true;
-    }
-    return false;
-  };
   return static_cast<std::int64_t>(particle_sum(world.count, [&](std::size_t i) {
     const Vec3 x = world.fields.position[i];
-    return beyond_wall(x) || in_body(to_double(x)) ? 1.0 : 0.0;
+    return beyond_wall(x) || world.obstacles->contains(x) ? 1.0 : 0.0;
   }));
 }
 

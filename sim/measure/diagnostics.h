@@ -1,10 +1,9 @@
 // Sums over all particles, in double precision and in a fixed order.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "sim/core/world.h"
-#include "sim/scene/shapes.h"
 
 namespace curlew {
 
@@ -28,19 +27,7 @@ double kinetic_energy(const World& world);
 double enstrophy(const World& world);
 double helicity(const World& world);
 
-// Counts particles that are where no fluid may be: beyond a wall, or inside a body.
-class OutsideCounter {
- public:
-  explicit OutsideCounter(const Scene& scene);
-  std::int64_t count(const World& world) const;
-
- private:
-  struct Obstacle {
-    Box bounds;
-    ShapeProbe probe;
-  };
-  std::vector<Shape> shapes_;  // the probes point here
-  std::vector<Obstacle> obstacles_;
-};
+// How many particles are where no fluid may be: beyond a wall, or inside a body.
+std::int64_t count_outside(const World& world);
 
 }  // namespace curlew

@@ -47,11 +47,6 @@ std::array<LatticeAxis, 3> lattice_of(const Shape& shape, const Scene& scene) {
   return axes;
 }
 
-// How near to a body's surface fluid may begin, in radii. One layer of samples stands for the whole solid (Akinci et
-// al. 2012), so it reaches farther than a wall: nearer than this, fluid at rest density would begin compressed and
-// burst.
-constexpr double body_clearance = 2.2;
-
 // Which points of the lattices may hold particles.
 class FreeSpace {
  public:
@@ -68,7 +63,7 @@ class FreeSpace {
       if (p[axis] > scene_.domain.max[axis] - margin + (periodic ? -slack : slack)) return false;
     }
     for (const ShapeProbe& body : bodies_) {
-      if (body.distance(p, 3 * r) < body_clearance * r * (1 - tolerance)) return false;
+      if (body.distance(p, 2 * r) < r * (1 - tolerance)) return false;
     }
     return true;
   }

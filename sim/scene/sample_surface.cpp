@@ -190,6 +190,72 @@ struct Sampler {
   }
 };
 
+// Shapes whose surface lies `depth` beneath that of the given one; thin parts end in their middle.
+Shape beneath(const Box& b, double depth, int dimension) {
+  Box inner = b;
+  for (int axis = 0; axis < dimension; ++axis) {
+    const double inset = std::min(depth, (b.max[axis] - b.min[axis]) / 2);
+    inner.min[axis] += inset;
+    inner.max[axis] -= inset;
+  }
+  return inner;
+}
+
+Shape beneath(const Sphere& s, double depth, int) { return Sphere{s.centre, std::max(0.0, s.radius - depth)}; }
+
+Shape beneath(const Cylinder& c, double depth, int dimension) {
+  const Vec3d whole = c.to - c.from;
+  // In 2D the ends are round, and shrink with the radius.
+  const Vec3d inset = dimension == 2 ? Vec3d{} : std::min(depth / length(whole), 0.4999) * whole;
+  return Cylinder{c.from + inset, c.to - inset, std::max(0.0, c.radius - depth)};
+}
+
+Shape beneath(const Plane& plane, double depth, int dimension) {
+  const Vec3d normal = dimension == 2 ? Vec3d{plane.normal.x, plane.normal.y, 0} : plane.normal;
+  return Plane{plane.point - depth / length(normal) * normal, plane.normal};
+}
+
+// The place `depth` beneath p on the surface, or as near to it as there is along the normal.
+Vec3d pushed_in(const ShapeProbe& probe, Vec3d p, double depth, int dimension) {
+  const double reach = 4 * depth;
+  Vec3d normal;
+  for (int axis = 0; axis < dimension; ++axis) {
+    Vec3d step;
+    step[axis] = 0.25 * depth;
+    normal[axis] = probe.distance(p + step, reach) - probe.distance(p - step, reach);
+  }
+  if (length(normal) == 0) return p;
+  normal = (1 / length(normal)) * normal;
+  Vec3d best = p;
+  double least = INFINITY;
+  for (int part = 0; part <= 7; ++part) {  // to 1.75 depths: a corner's normal leads in slantwise
+    const Vec3d place = p - 0.25 * part * depth * normal;
+    const double miss = std::abs(probe.distance(place, reach) + depth);
+    if (miss < least - 1e-6 * depth) {
+      least = miss;
+      best = place;
+    }
+  }
+  return best;
+}
+
+// One layer at that depth beneath the surface.
+std::vector<Vec3d> sample_beneath(const Shape& shape, double depth, double spacing, int dimension,
+                                  const Domain& domain) {
+  return std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        if constexpr (requires { beneath(kind, depth, dimension); }) {
+          return sample_surface(beneath(kind, depth, dimension), spacing, dimension, domain);
+        } else {
+          const ShapeProbe probe(shape, dimension);
+          std::vector<Vec3d> points = sample_surface(shape, spacing, dimension, domain);
+          for (Vec3d& p : points) p = pushed_in(probe, p, depth, dimension);
+          return points;
+        }
+      },
+      shape);
+}
+
 }  // namespace
 
 std::vector<Vec3d> sample_surface(const Shape& shape, double spacing, int dimension, const Domain& domain) {
@@ -205,6 +271,15 @@ std::vector<Vec3d> sample_surface(const Shape& shape, double spacing, int dimens
     return !sampler.within(p, 2 * spacing);
   });
   return wraps ? thinned(sampler.points, 0.6 * spacing * (1 - 1e-9), domain) : std::move(sampler.points);
+}
+
+std::vector<Vec3d> sample_body(const Shape& shape, double spacing, int dimension, const Domain& domain) {
+  std::vector<Vec3d> points;
+  for (const double depth : {0.5 * spacing, 1.5 * spacing}) {
+    const std::vector<Vec3d> layer = sample_beneath(shape, depth, spacing, dimension, domain);
+    points.insert(points.end(), layer.begin(), layer.end());
+  }
+  return thinned(points, 0.6 * spacing * (1 - 1e-9), domain);
 }
 
 }  // namespace curlew

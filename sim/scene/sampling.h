@@ -32,4 +32,9 @@ Vec3d initial_velocity(const InitialVelocity&, Vec3d p, const Scene&);
 // two spacings are left out, and in periodic axes all beyond it.
 std::vector<Vec3d> sample_surface(const Shape&, double spacing, int dimension, const Domain&);
 
+// The samples of a body: two such layers, half a spacing and 3/2 spacings beneath the surface, where it is thick enough
+// for them; a thin part has one in its middle. Fluid keeps about a spacing from the first, so that it stands half a
+// spacing off the surface, as it does off a wall.
+std::vector<Vec3d> sample_body(const Shape&, double spacing, int dimension, const Domain&);
+
 }  // namespace curlew

@@ -8,11 +8,23 @@
 
 namespace curlew {
 
+namespace {
+
+// gamma of V_b: what the layers of a half lattice give one spacing off, over what two even layers of samples give.
+double volume_share(const Kernel& kernel, double d) {
+  double half_lattice = 0;
+  for (int layer = 1; layer * d < kernel.support(); ++layer) half_lattice += kernel.layer_sum(d, layer * d);
+  const double volume = 1 / (kernel.layer_sum(d, 0) + kernel.layer_sum(d, d));
+  return half_lattice / kernel.lattice_sum(d) / (volume * (kernel.layer_sum(d, d) + kernel.layer_sum(d, 2 * d)));
+}
+
+}  // namespace
+
 BodySamples::BodySamples(const Scene& scene, const CellShape& shape, const Kernel& kernel) {
   std::vector<Vec3> unsorted;
   std::vector<float> no_slip;
   for (const Body& body : scene.bodies) {
-    for (Vec3d point : sample_surface(body.shape, scene.spacing(), scene.dimension, scene.domain)) {
+    for (Vec3d point : sample_body(body.shape, scene.spacing(), scene.dimension, scene.domain)) {
       unsorted.push_back(to_float(point));
       no_slip.push_back(body.kind == WallKind::no_slip ? 1.0f : 0.0f);
     }
@@ -38,6 +50,7 @@ BodySamples::BodySamples(const Scene& scene, const CellShape& shape, const Kerne
   NeighbourLists lists;
   lists.build(shape, grid_, position_, kernel.support());
   volume_.resize(position_.size());
+  const double share = volume_share(kernel, scene.spacing());
   parallel_for(position_.size(), [&](std::size_t i) {
     double total = kernel.value(0.0);
     for (std::size_t k = 0; k < lists.count(i); ++k) {
@@ -47,7 +60,7 @@ BodySamples::BodySamples(const Scene& scene, const CellShape& shape, const Kerne
       }
       total += kernel.value(length(x));
     }
-    volume_[i] = static_cast<float>(1 / total);
+    volume_[i] = static_cast<float>(share / total);
   });
 }
 

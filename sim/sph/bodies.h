@@ -1,5 +1,7 @@
-// Bodies as samples of their surface (Akinci et al. 2012, "Versatile rigid-fluid coupling"): each sample stands for
-// the volume V_b = 1 / sum_b' W(x_b - x_b'), which makes one even layer push like the solid behind it.
+// Bodies as samples in two layers, half a spacing d and 3/2 d beneath their surface: each sample stands for the volume
+// V_b = gamma / sum_b' W(x_b - x_b') (Akinci et al. 2012, "Versatile rigid-fluid coupling"), and gamma is such that a
+// particle one spacing from even layers has the density that it has in a full lattice. One layer alone goes soft where
+// an impact drives water within a spacing of it.
 #pragma once
 
 #include <vector>

@@ -36,4 +36,15 @@ double Kernel::lattice_sum(double d) const {
   return total;
 }
 
+double Kernel::layer_sum(double d, double z) const {
+  const int reach = static_cast<int>(std::ceil(support() / d));
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = dimension_ == 3 ? -reach : 0; j <= (dimension_ == 3 ? reach : 0); ++j) {
+      sum += value(std::sqrt(z * z + d * d * (i * i + j * j)));
+    }
+  }
+  return sum;
+}
+
 }  // namespace curlew

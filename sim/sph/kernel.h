@@ -38,6 +38,9 @@ class Kernel {
   // Sum of W over a lattice of spacing d, centre included (unit: 1/m^D).
   double lattice_sum(double d) const;
 
+  // Sum of W over one layer of such a lattice, seen from a place over one of its points at distance z (unit: 1/m^D).
+  double layer_sum(double d, double z) const;
+
   // 0.01 h^2, which keeps the Laplacian finite for close pairs (Monaghan 1992).
   float softening() const { return softening_; }
 

@@ -175,6 +175,7 @@ void advect(World& world) {
   const bool corrected = world.parameters().pressure.two_sided;
   const double held = particle_sum(world.count, [&](std::size_t i) {
     Vec3& x = f.position[i];
+    const Vec3 before = x;
     x += dt * f.velocity[i];
     if (corrected) x += f.displacement[i];
     for (int axis = 0; axis < 3; ++axis) {
@@ -182,7 +183,10 @@ void advect(World& world) {
       const float low = static_cast<float>(domain.min[axis]), period = cells.period[axis];
       x[axis] -= period * std::floor((x[axis] - low) / period);
     }
-    return world.walls.hold(x, f.velocity[i]) ? 1.0 : 0.0;
+    const bool at_body = world.obstacles->hold(x, f.velocity[i], before);
+    const bool at_wall = world.walls.hold(x, f.velocity[i]);
+    if (at_body && at_wall && world.obstacles->contains(x)) x = before;
+    return at_body || at_wall ? 1.0 : 0.0;
   });
   world.report.wall_contacts = static_cast<std::int64_t>(held);
 }

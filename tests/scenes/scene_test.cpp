@@ -61,14 +61,13 @@ World jittered(World world, double spacings) {
 
 Run::Run(const Scene& scene, FieldSet demanded) : Run(make_world(scene), demanded) {}
 
-Run::Run(World changed, FieldSet demanded)
-    : world(std::move(changed)), plan_(make_plan(world, demanded)), outside_(world.scene) {
+Run::Run(World changed, FieldSet demanded) : world(std::move(changed)), plan_(make_plan(world, demanded)) {
   prepare(world, plan_);
   remember();
 }
 
 void Run::remember() {
-  history_.push_back({world.time, world.dt, diagnose(world), world.report, outside_.count(world)});
+  history_.push_back({world.time, world.dt, diagnose(world), world.report, count_outside(world)});
 }
 
 void Run::simulate(double seconds) {

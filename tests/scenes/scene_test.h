@@ -69,7 +69,6 @@ class Run {
   void remember();
 
   Plan plan_;
-  OutsideCounter outside_;
   std::vector<Moment> history_;
 };
 
