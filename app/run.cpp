@@ -234,6 +234,7 @@ class Run {
   // The step put the world back to the state before it: that is saved, for a look or another try.
   int end_diverged(const DivergedError& error) {
     const std::string saved = save_checkpoint("diverged");
+    recorder_->end_early(world_);
     output_.finish();
     summary_.status = "diverged";
     summary_.message = error.what();

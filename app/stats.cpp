@@ -138,6 +138,13 @@ void StepRecorder::write_row(const World& world, bool last) {
   }
   cells.push_back(last || settings_.full_columns ? hash_text(state_hash(world.fields)) : "");
   stats_->row(cells);
+  last_row_ = std::move(cells);
+}
+
+void StepRecorder::end_early(const World& world) {
+  if (last_row_.empty() || last_row_.front() != text(world.step)) return write_row(world, true);
+  last_row_.back() = hash_text(state_hash(world.fields));
+  stats_->replace_last_row(last_row_);
 }
 
 }  // namespace curlew

@@ -33,6 +33,9 @@ class StepRecorder : public PassObserver {
   // Writes the row of the state as it is. The state's hash stands in full rows and in the `last` one.
   void write_row(const World& world, bool last);
 
+  // The state as it is was the last one after all: completes its row, or writes it.
+  void end_early(const World& world);
+
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const std::vector<double>& milliseconds() const { return total_ms_; }  // of each pass, over the run
   std::int64_t outside() const { return outside_; }
@@ -47,6 +50,7 @@ class StepRecorder : public PassObserver {
   Diagnostics diagnostics_;
   std::int64_t outside_ = 0;
   std::unique_ptr<CsvWriter> stats_, hashes_;
+  std::vector<std::string> last_row_;
 };
 
 }  // namespace curlew

@@ -146,7 +146,11 @@ std::string parameter_text(const Parameters& parameters, const ParameterRow& row
 
 std::string number_text(double value) {
   char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  const double size = std::abs(value);
+  // 100000 is kinder than 1e+05.
+  const bool plain = size >= 1e-3 && size < 1e9;
+  const auto result = plain ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                            : std::to_chars(buffer, buffer + sizeof buffer, value);
   return std::string(buffer, result.ptr);
 }
 

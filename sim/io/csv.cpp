@@ -119,6 +119,7 @@ CsvWriter::CsvWriter(CsvWriter&& other) noexcept
     : path_(std::move(other.path_)),
       columns_(other.columns_),
       size_(other.size_),
+      last_row_(other.last_row_),
       file_(std::exchange(other.file_, -1)) {}
 
 CsvWriter::~CsvWriter() {
@@ -127,7 +128,17 @@ CsvWriter::~CsvWriter() {
 
 void CsvWriter::row(std::span<const std::string> cells) {
   if (cells.size() != columns_) throw std::logic_error("a CSV row needs as many cells as there are columns");
+  const std::uint64_t begin = size_;
   write_line(line_of(cells));
+  last_row_ = begin;
+}
+
+void CsvWriter::replace_last_row(std::span<const std::string> cells) {
+  if (last_row_ > 0) {
+    if (::ftruncate(file_, static_cast<off_t>(last_row_)) != 0) throw InputError(write_error(path_, errno));
+    size_ = last_row_;
+  }
+  row(cells);
 }
 
 void CsvWriter::write_line(const std::string& line) {

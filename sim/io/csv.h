@@ -23,6 +23,9 @@ class CsvWriter {
   // file when this returns. Where the disk is full the file still ends in a whole line.
   void row(std::span<const std::string> cells);
 
+  // The same, in place of the last row, or as the first where there is none yet.
+  void replace_last_row(std::span<const std::string> cells);
+
   // Closes the file and reports what only closing can find out. The destructor closes silently.
   void close();
 
@@ -33,7 +36,8 @@ class CsvWriter {
 
   std::string path_;
   std::size_t columns_ = 0;
-  std::uint64_t size_ = 0;  // of the file, always at the end of a line
+  std::uint64_t size_ = 0;              // of the file, always at the end of a line
+  std::uint64_t last_row_ = 0;          // where the last row begins; 0 before there is one
   int file_ = -1;
 };
 

@@ -21,6 +21,7 @@ constexpr const char* run_subfolders[] = {"frames", "particles", "mesh", "checkp
 
 bool is_unfinished(const fs::path& file) {
   const std::string name = file.filename().string();
+  if (name.ends_with(".png.part") || name.ends_with(".mp4.part")) return true;
   const auto at = name.rfind(unfinished_suffix);
   return at != std::string::npos && at > 0 &&
          name.find_first_not_of("0123456789", at + unfinished_suffix.size()) == std::string::npos;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sim/io/checkpoint.h"
+#include "sim/measure/state_hash.h"
 #include "tests/app/run_files.h"
 #include "tests/io/temporary_folder.h"
 
@@ -330,6 +331,9 @@ TEST_CASE("a run that diverges names pass and particle and saves the state befor
     const curlew::Checkpoint saved = curlew::read_checkpoint(folder / "a/checkpoints/diverged.curlew");  // all finite
     CHECK(saved.step == static_cast<std::int64_t>(table.rows.size()) - 1);
     CHECK(saved.fields.id.size() == 1000);
+    CHECK(table.cell(table.rows.size() - 1, "step") == std::to_string(saved.step));
+    CHECK(table.cell(table.rows.size() - 1, "state_hash") == curlew::hash_text(curlew::state_hash(saved.fields)));
+    CHECK(table.cell(table.rows.size() - 2, "state_hash").empty());
     CHECK(unfinished_files(folder.path()).empty());
   }
 }

@@ -137,6 +137,8 @@ TEST_CASE("a run is not overwritten unless asked for, and nothing else ever", "[
                           "checkpoints/000003.curlew",
                           "checkpoints/interrupted.curlew",
                           "frames/000004.png.unfinished0",
+                          "frames/000005.png.part",
+                          "video.mp4.part",
                           "stats.csv.unfinished12"};
   const Names of_a_person = {"frames/best.png", "mesh/ship.obj", "notes.txt", "mine/000000.png", "a.unfinished.txt"};
   for (const auto& names : {of_a_run, of_a_person}) {

@@ -30,6 +30,18 @@ TEST_CASE("a table is on the disk after each row", "[io][csv]") {
   CHECK_THROWS_AS(moved.row(std::vector<std::string>{"1"}), std::logic_error);
 }
 
+TEST_CASE("the last row can be written again", "[io][csv]") {
+  const TemporaryFolder folder;
+  CsvWriter csv(folder / "a.csv", columns);
+  const auto row = [](const char* step, const char* kinetic) { return std::vector<std::string>{step, "0.1", kinetic}; };
+  csv.replace_last_row(row("1", "2"));  // there is none yet
+  csv.row(row("2", "3"));
+  csv.replace_last_row(row("2", "3.25"));
+  csv.replace_last_row(row("2", "4"));
+  add_row(csv, 3);
+  CHECK(file_text(csv.path()) == "step,time,kinetic\n1,0.1,2\n2,0.1,4\n3,0.1,2\n");
+}
+
 TEST_CASE("cells with commas and quotes are quoted, line breaks refused", "[io][csv]") {
   const TemporaryFolder folder;
   CsvWriter csv(folder / "a.csv", {"step", "a,b", "say \"hi\""});
