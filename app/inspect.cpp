@@ -193,8 +193,11 @@ int doctor_command() {
   return draws ? 0 : 4;
 }
 
+#if !defined(CURLEW_GUI)
 int gui_command(const std::string&) {
-  throw GraphicsError("this version has no window yet; run without one, for example: curlew run pillars --frames");
+  throw GraphicsError(
+      "built without a window (CURLEW_GUI=OFF); run without one, for example: curlew run pillars --frames");
 }
+#endif
 
 }  // namespace curlew

@@ -11,6 +11,7 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/run_json.h"
+#include "app/saving.h"
 #include "app/setup.h"
 #include "app/stats.h"
 #include "sim/core/error.h"
@@ -192,19 +193,11 @@ class Run {
     char number[32];
     std::snprintf(number, sizeof number, "%06lld", static_cast<long long>(world_.step));
     const std::string file = folder_ + "/checkpoints/" + (name.empty() ? number : name) + ".curlew";
-    CheckpointInfo info{scene_json(world_.scene),
-                        world_.scene.file.string(),
-                        version_text(),
-                        CURLEW_ISA_NAME,
-                        world_.seed,
-                        world_.step,
-                        world_.time,
-                        world_.dt,
-                        {}};
+    std::vector<std::pair<std::string, double>> numbers;
     if (const auto range = output_.colour_range()) {
-      info.numbers = {{"colour_low", (*range)[0]}, {"colour_high", (*range)[1]}};
+      numbers = {{"colour_low", (*range)[0]}, {"colour_high", (*range)[1]}};
     }
-    write_checkpoint(file, info, world_.fields);
+    curlew::save_checkpoint(file, world_, std::move(numbers));
     return file;
   }
 

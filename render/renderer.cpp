@@ -58,25 +58,23 @@ struct Renderer::State {
         shading(w, h, supersample),
         shadow_program(gl::link_program("shadow.vert", "shadow.frag")) {}
 
-  void draw_shadow(const LightMap& light, double radius, bool flat);
-  void draw_scene(const Look& look, bool flat);
+  void draw_shadow(const LightMap& light, double radius, bool bodies);
+  void draw_scene(const ViewSettings& settings, bool flat);
   void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range);
 };
 
-void Renderer::State::draw_shadow(const LightMap& light, double radius, bool flat) {
-  shading.begin_shadow();
-  if (flat) return;
+void Renderer::State::draw_shadow(const LightMap& light, double radius, bool bodies) {
   const double pixels = 2 * radius / light.metres * Shading::shadow_size;
   gl::set(shadow_program, "point_size", static_cast<float>(std::max(1.0, pixels)));
   particles.draw_shadow(shadow_program);
-  solids.draw_shadow(shadow_program);
+  if (bodies) solids.draw_shadow(shadow_program);
 }
 
-void Renderer::State::draw_scene(const Look& look, bool flat) {
+void Renderer::State::draw_scene(const ViewSettings& settings, bool flat) {
   shading.begin_scene();
   particles.draw();
-  solids.draw_bodies();
-  if (look.show_floor || flat) solids.draw_floor();
+  if (settings.show_bodies) solids.draw_bodies();
+  if (settings.look.show_floor || flat) solids.draw_floor();
 }
 
 void Renderer::State::draw_legend(const Frame& frame, const Look& look, const Theme& theme,
@@ -122,6 +120,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
 
   s.view = view_of(settings.camera, geometry.domain, geometry.dimension, static_cast<double>(s.width) / s.height,
                    look.show_legend ? legend_margin(s.width, s.height) : 0.0);
+  if (s.view.orthographic) s.view.half_height /= settings.flat_zoom;
   const LightMap light = light_map_of(geometry.domain, key_direction(s.view, geometry.dimension));
   const ViewBlock block = view_block(s.view, theme, geometry, light, radius, s.shading.drawn_width(),
                                      s.shading.drawn_height(), s.supersample);
@@ -133,8 +132,9 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
   s.particles.upload(sized_particles(frame, size), frame.value);
   s.particles.set_colours(look.colour_map, theme.water, range, coloured);
   s.solids.upload(frame.geometry);
-  s.draw_shadow(light, radius, flat);
-  s.draw_scene(look, flat);
+  s.shading.begin_shadow();
+  if (!flat) s.draw_shadow(light, radius, settings.show_bodies);
+  s.draw_scene(settings, flat);
   s.shading.light(light.metres);
   if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading.depth());
   if (look.show_legend) s.draw_legend(frame, look, theme, range);

@@ -1,0 +1,140 @@
+// The interface of the window: widgets, what they have been set to, and what they ask for. Draws with Dear ImGui into
+// whatever is current, a window or an off-screen target, and talks to the run through a Session.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/gui/orbit.h"
+#include "app/gui/plot.h"
+#include "app/session.h"
+#include "render/renderer.h"
+#include "sim/scene/bundled.h"
+
+namespace curlew {
+
+class Interface {
+ public:
+  struct Settings {
+    std::filesystem::path assets;       // folder of the bundled scenes
+    std::filesystem::path out = "out";  // where screenshots, films, checkpoints and saved scenes go
+    double scale = 1;                   // of the display
+  };
+  Interface(Session& session, Settings settings);
+
+  // A bundled name or a file. What is wrong with it is shown, not thrown.
+  void open(const std::string& scene);
+  void take(Session::Update update);
+  void say(const std::string& message, bool error = false);
+
+  // All widgets for one picture of the window, between ImGui::NewFrame() and ImGui::Render(). `picture` is the texture
+  // of the water, 0 before there is one.
+  void draw(unsigned picture);
+
+  // What the water's picture has to show; version() changes when it does.
+  std::shared_ptr<const Frame> frame() const { return shown_; }
+  const ViewSettings& view() const { return view_; }
+  std::uint64_t version() const { return version_; }
+  std::array<int, 2> picture_size() const { return picture_size_; }
+
+  // What a hand has asked for since the last call, for the window to do.
+  struct Requests {
+    bool screenshot = false, with_interface = false;
+    bool start_recording = false, stop_recording = false;
+    bool restyle = false;
+    bool quit = false;
+  };
+  Requests take_requests();
+  bool dark() const { return dark_; }
+  double scale() const { return scale_; }
+  // out/NAME/KIND_000.EXTENSION, the first number that is free.
+  std::filesystem::path new_file(const std::string& kind, const std::string& extension) const;
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<Sample>& samples() const { return samples_; }
+  const SessionStatus& status() const { return status_; }
+  std::string command_line() const;
+
+  // Where a widget was drawn last (left, top, right, bottom in pixels); throws where there is none. For scripts.
+  std::array<float, 4> place(std::string_view widget) const;
+
+ private:
+  // interface.cpp: layout, tool bar, picture, shortcuts
+  void draw_toolbar(float height);
+  void draw_picture(unsigned picture, std::array<float, 4> box);
+  void draw_status(float height);
+  void draw_help();
+  void draw_loading();
+  void handle_keys();
+  void handle_mouse(std::array<float, 4> box);
+  void update_view();
+  bool button(const char* label, const char* tip, bool enabled = true);
+  void mark(std::string_view widget);
+  void show_settings_changed();
+
+  // parameters_panel.cpp
+  void draw_parameters();
+  void draw_parameter(const ParameterRow& row);
+  void draw_turbulence();
+  void draw_resolution();
+  void draw_files();
+  void change(const Parameters& next);  // with undo
+  void undo(), redo();
+  void save_scene();
+
+  // view_panel.cpp
+  void draw_view();
+
+  // plots_panel.cpp
+  void draw_plots();
+
+  Session& session_;
+  Settings settings_;
+  std::vector<SceneInfo> bundled_;
+
+  Scene scene_;             // as it will be laid out next: with the parameters as they are set
+  Parameters own_;          // as the scene's file has them
+  double own_radius_ = 0;   // the same
+  std::string scene_name_;  // as one gives it on the command line
+  Parameters edited_;       // while a slider is held
+  std::vector<Parameters> past_, future_;
+  bool editing_ = false;
+  char file_[256] = "";
+  int wanted_particles_ = 0;
+  std::string message_;
+  bool message_is_error_ = false;
+  double message_time_ = 0;
+
+  SessionStatus status_;
+  std::int64_t scene_number_ = 0;
+  std::vector<Sample> samples_;
+  std::vector<Sample> paused_samples_;
+  bool plots_paused_ = false;
+
+  std::shared_ptr<const Frame> latest_, shown_;
+  ViewSettings view_;
+  Orbit orbit_;
+  bool orbit_is_new_ = true;
+  std::uint64_t version_ = 0;
+  std::optional<std::array<double, 2>> range_;  // of the colours so far
+  bool own_range_ = false;                      // the user's
+  float particle_scale_ = 1;
+  bool cut_ = false;
+  int cut_axis_ = 2;
+  float cut_at_ = 0.5f;
+  bool cut_low_ = false;
+
+  bool show_parameters_ = true, show_view_ = true, show_plots_ = true, show_help_ = false, dark_ = false;
+  double scale_ = 1;
+  std::array<int, 2> picture_size_{640, 360};
+  Requests requests_;
+  std::map<std::string, std::array<float, 4>, std::less<>> places_;
+};
+
+}  // namespace curlew

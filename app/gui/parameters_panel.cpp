@@ -1,0 +1,260 @@
+// The parameters, from their table: sliders with unit, range, symbol and tool tip, undo, and scene files.
+#include <imgui.h>
+
+#include <cstdio>
+
+#include "app/gui/interface.h"
+#include "app/gui/style.h"
+#include "sim/core/error.h"
+#include "sim/io/atomic_file.h"
+#include "sim/scene/reader.h"
+#include "sim/scene/resolution.h"
+
+namespace curlew {
+namespace {
+
+std::string member_of(const ParameterRow& row) { return row.key.substr(row.key.find('.') + 1); }
+
+// A slider over more than three decades is of use only in logarithms.
+bool wide(const ParameterRow& row) { return row.slider_min > 0 && row.slider_max / row.slider_min >= 500; }
+
+std::string label_of(const ParameterRow& row) {
+  std::string name = member_of(row);
+  for (char& c : name) c = c == '_' ? ' ' : c;
+  std::string label = row.symbol.empty() ? name : written_symbol(row.symbol) + "  " + name;
+  if (row.unit != "1" && !row.unit.empty()) label += " (" + row.unit + ")";
+  return label;
+}
+
+void tool_tip(const ParameterRow& row) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(row.key.c_str());
+  ImGui::TextUnformatted(row.doc.c_str());
+  if (row.type == ParameterRow::Type::real || row.type == ParameterRow::Type::count) {
+    ImGui::TextDisabled("default %s, slider %s to %s, limits %s to %s%s%s", number_text(row.default_value).c_str(),
+                        number_text(row.slider_min).c_str(), number_text(row.slider_max).c_str(),
+                        number_text(row.min).c_str(), number_text(row.max).c_str(), row.unit == "1" ? "" : " ",
+                        row.unit == "1" ? "" : row.unit.c_str());
+    ImGui::TextDisabled("Ctrl-click to type a number, double-click the name to go back to the scene's own value.");
+  } else {
+    ImGui::TextDisabled("default %s. Double-click the name to go back to the scene's own value.",
+                        parameter_text(row, row.default_value).c_str());
+  }
+  if (!row.live) ImGui::TextDisabled("Counts from the next layout: press Apply.");
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+// The widget that fits the row's type; true while a hand changes `value`.
+bool edit(const ParameterRow& row, double& value) {
+  const std::string id = "##" + row.key;
+  switch (row.type) {
+    case ParameterRow::Type::flag: {
+      bool on = value != 0;
+      const bool changed = ImGui::Checkbox(id.c_str(), &on);
+      value = on ? 1 : 0;
+      return changed;
+    }
+    case ParameterRow::Type::choice: {
+      int index = static_cast<int>(value);
+      bool changed = false;
+      if (ImGui::BeginCombo(id.c_str(), row.names[static_cast<std::size_t>(index)].c_str())) {
+        for (int k = 0; k < static_cast<int>(row.names.size()); ++k) {
+          if (ImGui::Selectable(row.names[static_cast<std::size_t>(k)].c_str(), k == index)) {
+            changed = k != index;
+            value = k;
+          }
+        }
+        ImGui::EndCombo();
+      }
+      return changed;
+    }
+    case ParameterRow::Type::count: {
+      int number = static_cast<int>(value);
+      const bool changed =
+          ImGui::SliderInt(id.c_str(), &number, static_cast<int>(row.slider_min), static_cast<int>(row.slider_max));
+      value = number;
+      return changed;
+    }
+    case ParameterRow::Type::real:
+      break;
+  }
+  return ImGui::SliderScalar(
+      id.c_str(), ImGuiDataType_Double, &value, &row.slider_min, &row.slider_max, wide(row) ? "%.2e" : "%.4g",
+      wide(row) ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : ImGuiSliderFlags_NoRoundToFormat);
+}
+
+}  // namespace
+
+void Interface::draw_parameter(const ParameterRow& row) {
+  const double own = row.get(own_);
+  double value = row.get(editing_ ? edited_ : scene_.parameters);
+  const bool changed_from_own = row.get(scene_.parameters) != own;
+  ImGui::PushID(row.key.c_str());
+  ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+  const bool touched = edit(row, value);
+  const bool released = ImGui::IsItemDeactivatedAfterEdit();
+  const bool instant = row.type == ParameterRow::Type::flag || row.type == ParameterRow::Type::choice;
+  mark(row.key);
+  tool_tip(row);
+  ImGui::SameLine();
+  const std::string label = label_of(row);
+  if (changed_from_own) {
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s *", label.c_str());
+  } else {
+    ImGui::TextUnformatted(label.c_str());
+  }
+  mark("label " + row.key);
+  tool_tip(row);
+  Parameters next = scene_.parameters;
+  try {
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && changed_from_own) {
+      row.set(next, own);
+      change(next);
+    } else if (touched || released) {
+      if (!editing_) edited_ = scene_.parameters;
+      set_parameter(edited_, row, value, "The slider");
+      next = edited_;
+      if (released || instant) {
+        editing_ = false;
+        change(next);
+      } else {  // while the slider moves the water follows, and undo waits for its end
+        editing_ = true;
+        if (row.live) session_.set_parameters(next);
+      }
+    }
+  } catch (const InputError& error) {
+    editing_ = false;
+    session_.set_parameters(scene_.parameters);
+    say(error.what(), true);
+  }
+  ImGui::PopID();
+}
+
+void Interface::change(const Parameters& next) {
+  past_.push_back(scene_.parameters);
+  future_.clear();
+  scene_.parameters = next;
+  session_.set_parameters(next);
+}
+
+void Interface::undo() {
+  if (past_.empty()) return;
+  future_.push_back(scene_.parameters);
+  scene_.parameters = past_.back();
+  past_.pop_back();
+  session_.set_parameters(scene_.parameters);
+}
+
+void Interface::redo() {
+  if (future_.empty()) return;
+  past_.push_back(scene_.parameters);
+  scene_.parameters = future_.back();
+  future_.pop_back();
+  session_.set_parameters(scene_.parameters);
+}
+
+// Their sliders come alive with their models; the places are kept so that hands find them where they will be.
+void Interface::draw_turbulence() {
+  struct Place {
+    const char *symbol, *name, *doc;
+  };
+  constexpr Place places[] = {
+      {"alpha", "vorticity refinement", "Share of the lost vorticity that is given back (Liu et al. 2020)."},
+      {"nu_t", "micropolar transfer", "Transfer between flow and microrotation (Bender et al. 2018)."},
+      {"eta", "microrotation smoothing", "XSPH of the microrotation (Bender et al. 2018)."},
+      {"A", "wavelet amplitude", "Strength of the synthesised turbulence (Fujisawa et al. 2011)."},
+  };
+  for (const Place& place : places) {
+    double zero = 0;
+    const double low = 0, high = 1;
+    ImGui::BeginDisabled();
+    ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+    ImGui::SliderScalar((std::string("##") + place.name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+      ImGui::SetTooltip("%s\nThis version does not have the model yet.", place.doc);
+    }
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s  %s", written_symbol(place.symbol).c_str(), place.name);
+  }
+}
+
+void Interface::draw_resolution() {
+  ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+  ImGui::InputInt("particles", &wanted_particles_, 0, 0);
+  mark("particles");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Lays the scene out anew with the spacing that comes nearest.");
+  ImGui::SameLine();
+  if (button("Apply", "Lay out the scene with this many particles and with the parameters that need it")) {
+    try {
+      if (wanted_particles_ < 1) throw InputError("the number of particles has to be at least 1");
+      const bool same = wanted_particles_ == static_cast<int>(status_.particles);
+      Scene next = same ? scene_ : with_particles(scene_, wanted_particles_);
+      scene_ = next;
+      session_.open(next);
+    } catch (const InputError& error) {
+      say(error.what(), true);
+    }
+  }
+}
+
+void Interface::save_scene() {
+  try {
+    const std::string path = file_[0] == 0 ? new_file("scene", "json").string() : std::string(file_);
+    std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
+    Scene saved = scene_;
+    saved.camera = view_.camera;
+    saved.look = view_.look;
+    AtomicFile file(path);
+    file.write(scene_json(saved));
+    file.commit();
+    std::snprintf(file_, sizeof file_, "%s", path.c_str());
+    say("Saved " + path + "; run it with: curlew run " + path);
+  } catch (const std::exception& error) {
+    say(error.what(), true);
+  }
+}
+
+void Interface::draw_files() {
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint("##file", "scene file, such as my_scene.json", file_, sizeof file_);
+  mark("file");
+  if (button("Load", "Open the scene file named above", file_[0] != 0)) open(file_);
+  ImGui::SameLine();
+  if (button("Save", "Save the scene with these parameters, this camera and look")) save_scene();
+  ImGui::SameLine();
+  if (button("Copy command", "Copy the command line that runs this scene with these parameters without a window")) {
+    ImGui::SetClipboardText(command_line().c_str());
+    say("Copied: " + command_line());
+  }
+  if (button("Checkpoint", "Save the state; `curlew run --resume` goes on from it with the same bits")) {
+    session_.save_checkpoint(new_file("checkpoint", "curlew").string());
+  }
+}
+
+void Interface::draw_parameters() {
+  if (button("Undo", "Take the last change back (Ctrl-Z)", !past_.empty())) undo();
+  ImGui::SameLine();
+  if (button("Redo", "Make it again (Ctrl-Y)", !future_.empty())) redo();
+  ImGui::SameLine();
+  if (button("Scene's own", "All parameters as the scene has them")) change(own_);
+  if (ImGui::CollapsingHeader("Scene file", ImGuiTreeNodeFlags_DefaultOpen)) draw_files();
+  if (ImGui::CollapsingHeader("Turbulence", ImGuiTreeNodeFlags_DefaultOpen)) draw_turbulence();
+  std::string heading;
+  bool open = false;
+  for (const ParameterRow& row : parameter_table()) {
+    if (row.heading != heading) {
+      heading = row.heading;
+      const bool first = row.group == "viscosity" || row.group == "time" || row.group == "micropolar";
+      open = ImGui::CollapsingHeader(heading.c_str(), first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+      mark("group " + row.group);
+      if (open && row.group == "sph") draw_resolution();
+    }
+    if (open) draw_parameter(row);
+  }
+}
+
+}  // namespace curlew

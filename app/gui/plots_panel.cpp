@@ -1,0 +1,82 @@
+// Plots over the run's time.
+#include <imgui.h>
+
+#include "app/gui/interface.h"
+#include "sim/io/atomic_file.h"
+
+namespace curlew {
+namespace {
+
+std::vector<Plot> make_plots() {
+  std::vector<Plot> plots = {
+      {"Energy",
+       "J",
+       {{"mechanical", [](const Sample& s) { return s.kinetic + s.potential; }},
+        {"kinetic", [](const Sample& s) { return s.kinetic; }},
+        {"potential", [](const Sample& s) { return s.potential; }}},
+       false},
+      {"Compression",
+       "%",
+       {{"true", [](const Sample& s) { return 100 * s.compression; }},
+        {"after the solve", [](const Sample& s) { return 100 * s.compression_target; }},
+        {"divergence", [](const Sample& s) { return 100 * s.divergence_error; }}},
+       true},
+      {"Iterations",
+       "",
+       {{"density", [](const Sample& s) { return double(s.pressure_iterations); }},
+        {"divergence", [](const Sample& s) { return double(s.divergence_iterations); }}},
+       false},
+      {"Time step", "ms", {{"dt", [](const Sample& s) { return 1e3 * s.dt; }}}, false},
+  };
+  Plot cost{"Cost of a step", "ms", {{"step", [](const Sample& s) { return s.ms_step; }}}, false};
+  for (std::size_t k = 0; k < pass_table().size(); ++k) {
+    const std::string_view name = pass_table()[k].name;
+    for (const std::string_view shown : {"density_solve", "divergence_solve", "neighbours", "viscosity", "density"}) {
+      if (name != shown) continue;
+      cost.series.push_back(
+          {std::string(name), [k](const Sample& s) { return k < s.ms_pass.size() ? double(s.ms_pass[k]) : 0; }});
+    }
+  }
+  plots.push_back(std::move(cost));
+  return plots;
+}
+
+}  // namespace
+
+void Interface::draw_plots() {
+  static const std::vector<Plot> plots = make_plots();
+  if (button(plots_paused_ ? "Go on" : "Hold", "Hold the plots still; the run goes on")) {
+    plots_paused_ = !plots_paused_;
+    paused_samples_ = samples_;
+  }
+  mark("hold plots");
+  const std::vector<Sample>& samples = plots_paused_ ? paused_samples_ : samples_;
+  for (const Plot& plot : plots) {
+    ImGui::SameLine();
+    const std::string label = plot.title + ".csv";
+    if (button(label.c_str(), "Write this plot's numbers to a file", !samples.empty())) {
+      try {
+        std::string kind = plot.title;
+        for (char& c : kind) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+        const std::string path = new_file(kind, "csv").string();
+        AtomicFile file(path);
+        file.write(plot_csv(plot, samples));
+        file.commit();
+        say("Wrote " + path);
+      } catch (const std::exception& error) {
+        say(error.what(), true);
+      }
+    }
+  }
+  const ImVec2 space = ImGui::GetContentRegionAvail();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const auto number = static_cast<float>(plots.size());
+  const float width = (space.x - gap * (number - 1)) / number;
+  for (const Plot& plot : plots) {
+    if (&plot != plots.data()) ImGui::SameLine();
+    draw_plot(plot, samples, width, space.y);
+    mark("plot " + plot.title);
+  }
+}
+
+}  // namespace curlew

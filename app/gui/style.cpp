@@ -1,0 +1,92 @@
+#include "app/gui/style.h"
+
+#include <imgui.h>
+
+#include <filesystem>
+#include <map>
+
+namespace curlew {
+namespace {
+
+// Where distributions put DejaVu Sans. Without it Dear ImGui's own font serves, which has no Greek.
+constexpr const char* font_files[] = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/TTF/DejaVuSans.ttf",
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+};
+
+bool has_greek = false;
+
+void load_font(double scale) {
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  fonts.Clear();
+  has_greek = false;
+  // Latin, Greek, subscripts, and the few signs that we use.
+  static const ImWchar ranges[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2013, 0x2026, 0x2080, 0x2089, 0x25A0, 0x25FF, 0};
+  for (const char* file : font_files) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) continue;
+    if (fonts.AddFontFromFileTTF(file, static_cast<float>(14.0 * scale), nullptr, ranges) != nullptr) {
+      has_greek = true;
+      return;
+    }
+  }
+  ImFontConfig config;
+  config.SizePixels = static_cast<float>(13.0 * scale);
+  fonts.AddFontDefault(&config);
+}
+
+}  // namespace
+
+void set_style(bool dark, double scale) {
+  ImGuiStyle style;
+  if (dark) {
+    ImGui::StyleColorsDark(&style);
+  } else {
+    ImGui::StyleColorsLight(&style);
+  }
+  style.WindowRounding = 0;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.WindowBorderSize = 0;
+  style.FrameBorderSize = dark ? 0.0f : 1.0f;
+  style.WindowPadding = {10, 8};
+  style.ItemSpacing = {7, 5};
+  style.IndentSpacing = 12;
+  style.ScrollbarSize = 12;
+  style.Colors[ImGuiCol_WindowBg] = dark ? ImVec4(0.11f, 0.12f, 0.14f, 1) : ImVec4(0.955f, 0.96f, 0.97f, 1);
+  style.Colors[ImGuiCol_PopupBg] = dark ? ImVec4(0.15f, 0.16f, 0.19f, 1) : ImVec4(1, 1, 1, 1);
+  const ImVec4 accent = dark ? ImVec4(0.26f, 0.55f, 0.82f, 1) : ImVec4(0.16f, 0.46f, 0.74f, 1);
+  for (const ImGuiCol colour : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_CheckMark}) {
+    style.Colors[colour] = accent;
+  }
+  style.ScaleAllSizes(static_cast<float>(scale));
+  ImGui::GetStyle() = style;
+  static double loaded = 0;
+  if (loaded != scale || !ImGui::GetIO().Fonts->IsBuilt()) load_font(scale);
+  loaded = scale;
+}
+
+std::string written_symbol(const std::string& symbol) {
+  if (!has_greek) return symbol;
+  static const std::map<std::string, std::string> letters = {
+      {"alpha", "\u03b1"}, {"gamma", "\u03b3"}, {"epsilon", "\u03b5"}, {"zeta", "\u03b6"},
+      {"eta", "\u03b7"},   {"Theta", "\u0398"}, {"nu", "\u03bd"},      {"rho", "\u03c1"},
+      {"tau", "\u03c4"},   {"omega", "\u03c9"}, {"psi", "\u03c8"},
+  };
+  const auto underscore = symbol.find('_');
+  const std::string base = symbol.substr(0, underscore);
+  const auto letter = letters.find(base);
+  std::string text = letter == letters.end() ? base : letter->second;
+  if (underscore == std::string::npos) return text;
+  const std::string below = symbol.substr(underscore + 1);
+  const std::string digits = "0123456789";
+  if (below.size() == 1 && digits.find(below) != std::string::npos) {
+    const std::string subscripts[] = {"\u2080", "\u2081", "\u2082", "\u2083", "\u2084",
+                                      "\u2085", "\u2086", "\u2087", "\u2088", "\u2089"};
+    return text + subscripts[digits.find(below)];
+  }
+  return text + "_" + below;
+}
+
+}  // namespace curlew

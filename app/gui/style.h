@@ -1,0 +1,15 @@
+// How the interface looks: font, sizes and the two themes.
+#pragma once
+
+#include <string>
+
+namespace curlew {
+
+// Sets fonts and sizes for a display scale (1 for a usual screen, 2 for a dense one), and the colours. Call between
+// frames; a font change needs the backend's font texture made anew, which the next frame does.
+void set_style(bool dark, double scale);
+
+// A paper's symbol as it is written by hand: "nu" becomes the Greek letter where the font has it.
+std::string written_symbol(const std::string& symbol);
+
+}  // namespace curlew

@@ -1,0 +1,133 @@
+// What the picture shows: colours, cut, camera, theme.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/gui/interface.h"
+#include "app/gui/style.h"
+#include "render/colour_range.h"
+#include "sim/scene/names.h"
+
+namespace curlew {
+namespace {
+
+// A combo over names; true where another was chosen.
+template <class Names>
+bool choose(const char* label, std::string& chosen, const Names& names) {
+  bool changed = false;
+  if (ImGui::BeginCombo(label, chosen.c_str())) {
+    for (const auto& name : names) {
+      if (ImGui::Selectable(std::string(name).c_str(), chosen == name) && chosen != name) {
+        chosen = name;
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+}  // namespace
+
+void Interface::draw_view() {
+  const float wide = 8.0f * ImGui::GetFontSize();
+  bool changed = false;
+  if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
+    std::vector<std::string_view> names{"none"};
+    for (const ColourField& field : colour_fields()) {
+      if (field.name != "none") names.push_back(field.name);
+    }
+    ImGui::SetNextItemWidth(wide);
+    if (choose("colour by", view_.look.colour_by, names)) {
+      session_.colour_by(view_.look.colour_by);
+      range_.reset();
+      own_range_ = false;
+      changed = true;
+    }
+    mark("colour by");
+    ImGui::SetNextItemWidth(wide);
+    changed |= choose("map", view_.look.colour_map, colour_map_names());
+    mark("map");
+    changed |= ImGui::Checkbox("fixed range", &own_range_);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Otherwise the scale spans what the run has shown so far.");
+    mark("fixed range");
+    if (own_range_ && range_) {
+      float ends[2] = {static_cast<float>((*range_)[0]), static_cast<float>((*range_)[1])};
+      ImGui::SetNextItemWidth(wide);
+      if (ImGui::InputFloat2("range", ends, "%.3g") && ends[0] < ends[1]) {
+        range_ = {double{ends[0]}, double{ends[1]}};
+        changed = true;
+      }
+    }
+  }
+  if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) {
+    changed |= ImGui::Checkbox("bodies", &view_.show_bodies);
+    mark("bodies");
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("walls", &view_.look.show_walls);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("floor", &view_.look.show_floor);
+    changed |= ImGui::Checkbox("legend", &view_.look.show_legend);
+    mark("legend");
+    ImGui::SetNextItemWidth(wide);
+    changed |= ImGui::SliderFloat("drop size", &particle_scale_, 0.3f, 1.5f, "%.2f");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Drawn radius over particle radius; 1 closes most gaps.");
+    mark("drop size");
+  }
+  if (ImGui::CollapsingHeader("Cut", ImGuiTreeNodeFlags_DefaultOpen)) {
+    changed |= ImGui::Checkbox("cut the water", &cut_);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Takes away what lies on one side of a plane, to see the inside.");
+    mark("cut");
+    if (cut_) {
+      const char* axes[] = {"x", "y", "z"};
+      ImGui::SetNextItemWidth(wide);
+      changed |= ImGui::Combo("across", &cut_axis_, axes, scene_.dimension);
+      ImGui::SetNextItemWidth(wide);
+      changed |= ImGui::SliderFloat("at", &cut_at_, 0, 1, "%.3f of the domain");
+      mark("cut at");
+      changed |= ImGui::Checkbox("keep the other side", &cut_low_);
+    }
+  }
+  if (ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) {
+    const double aspect = static_cast<double>(picture_size_[0]) / picture_size_[1];
+    int k = 0;
+    for (const char* side : {"front", "back", "left", "right", "top", "corner"}) {
+      if (k++ % 3 != 0) ImGui::SameLine();
+      const std::string tip = "Key " + std::to_string(k);
+      if (button(side, tip.c_str(), scene_.dimension == 3)) {
+        orbit_.look_from(side, scene_.domain, aspect);
+        changed = true;
+      }
+    }
+    if (button("Fit (F)", "All of the domain in sight")) {
+      orbit_.fit(scene_.domain, aspect);
+      changed = true;
+    }
+    ImGui::SameLine();
+    if (button("Scene's", "As the scene has its camera")) {
+      orbit_is_new_ = true;
+      changed = true;
+    }
+    ImGui::TextDisabled("drag: turn   right-drag: move   wheel: zoom");
+  }
+  if (ImGui::CollapsingHeader("Interface", ImGuiTreeNodeFlags_DefaultOpen)) {
+    if (ImGui::Checkbox("dark", &dark_)) {
+      view_.look.background = dark_ ? "dark" : "light";
+      requests_.restyle = changed = true;
+    }
+    mark("dark");
+    static constexpr double scales[] = {1, 1.25, 1.5, 2};
+    for (const double scale : scales) {
+      ImGui::SameLine();
+      char label[16];
+      std::snprintf(label, sizeof label, "%.3gx", scale);
+      if (button(label, "Size of text and widgets", scale_ != scale)) {
+        scale_ = scale;
+        requests_.restyle = true;
+      }
+    }
+  }
+  if (changed) show_settings_changed();
+}
+
+}  // namespace curlew

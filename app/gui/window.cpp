@@ -1,0 +1,255 @@
+// `curlew gui`: the window. The solver runs on its own thread; here pictures are drawn when there is something new, and
+// never so often that drawing takes the solver's cores away.
+#include <glad/gl.h>
+// glad before GLFW
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+#include "app/assets.h"
+#include "app/commands.h"
+#include "app/gui/interface.h"
+#include "app/gui/recorder.h"
+#include "app/gui/style.h"
+#include "render/context.h"
+#include "render/png.h"
+#include "sim/core/error.h"
+
+namespace curlew {
+namespace {
+
+double seconds() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+// Of the time of one core that may go into pictures of the water while it runs, where the processor draws them.
+constexpr double picture_share = 0.15;
+constexpr double idle_interval = 0.1, busy_interval = 1.0 / 60;  // s, between pictures of the interface
+constexpr double busy_after_input = 0.5;                         // s
+
+class Window {
+ public:
+  Window() {
+    if (glfwInit() != GLFW_TRUE) {
+      const char* reason = nullptr;
+      glfwGetError(&reason);
+      throw GraphicsError(std::string("no window can be opened: ") + (reason != nullptr ? reason : "no display") +
+                          "; run without one, for example: curlew run pillars --frames");
+    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SAMPLES, 0);  // the picture is smooth already, and software pays dearly
+    float scale = 1, ignored = 1;
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &scale, &ignored);
+    scale_ = std::clamp(double{scale}, 1.0, 4.0);
+    window_ =
+        glfwCreateWindow(static_cast<int>(1280 * scale_), static_cast<int>(720 * scale_), "Curlew", nullptr, nullptr);
+    if (window_ == nullptr) {
+      const char* reason = nullptr;
+      glfwGetError(&reason);
+      const std::string said = reason != nullptr ? reason : "no OpenGL 4.5";
+      glfwTerminate();
+      throw GraphicsError("no window with OpenGL 4.5 can be opened: " + said +
+                          "; run without one, for example: curlew run pillars --frames");
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(0);
+    if (gladLoadGL(glfwGetProcAddress) == 0) throw GraphicsError("the window's OpenGL cannot be loaded");
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 450");
+  }
+  ~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  GLFWwindow* handle() const { return window_; }
+  double scale() const { return scale_; }
+
+ private:
+  GLFWwindow* window_ = nullptr;
+  double scale_ = 1;
+};
+
+Image window_picture(GLFWwindow* window) {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window, &width, &height);
+  Image upside_down(width, height), image(width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glReadBuffer(GL_BACK);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(upside_down.at(0, height - 1 - y), 4 * static_cast<std::size_t>(width), image.at(0, y));
+  }
+  for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
+  return image;
+}
+
+class Loop {
+ public:
+  Loop(Window& window, Session& session, Interface& interface)
+      : window_(window), session_(session), interface_(interface), renderer_(640, 360) {}
+
+  void go() {
+    set_style(interface_.dark(), interface_.scale());
+    while (glfwWindowShouldClose(window_.handle()) == 0) {
+      const double begin = seconds();
+      poll();
+      draw_water();
+      draw_interface();
+      if (const auto asked = interface_.take_requests(); !answer(asked)) break;
+      glfwSwapBuffers(window_.handle());
+      wait(begin);
+    }
+    if (recorder_.running()) recorder_.finish();
+  }
+
+ private:
+  // Waits for input, or for as long as the interface may stay as it is.
+  void wait(double begin) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool touched = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
+                         ImGui::IsAnyItemActive() || io.WantTextInput;
+    if (touched) last_input_ = seconds();
+    const double interval = seconds() - last_input_ < busy_after_input ? busy_interval : idle_interval;
+    const double left = interval - (seconds() - begin);
+    if (interval == busy_interval) {
+      if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+      glfwPollEvents();
+    } else {
+      glfwWaitEventsTimeout(std::max(left, 1e-3));
+    }
+  }
+
+  void poll() {
+    Session::Update update = session_.poll();
+    const auto recorded = std::move(update.recorded);
+    interface_.take(std::move(update));
+    if (!recorder_.running()) return;
+    try {
+      for (const auto& frame : recorded) recorder_.add(*frame, interface_.view());
+    } catch (const std::exception& error) {
+      session_.record(0);
+      interface_.say(error.what(), true);
+    }
+  }
+
+  // The newest state at most so often that drawing takes its share and no more; at once where the view was moved or the
+  // water stands still.
+  void draw_water() {
+    const auto frame = interface_.frame();
+    if (!frame) return;
+    const bool running = interface_.status().state == RunState::playing;
+    if (drawn_version_ == interface_.version()) return;
+    const bool due = seconds() - drawn_at_ > draw_seconds_ / picture_share;
+    const bool touched = seconds() - last_input_ < busy_after_input;
+    if (running && !due && !(touched && seconds() - drawn_at_ > 2 * draw_seconds_)) return;
+    const auto [width, height] = interface_.picture_size();
+    const double begin = seconds();
+    try {
+      renderer_.resize(width, height);
+      renderer_.render(*frame, interface_.view());
+      glFinish();
+    } catch (const InputError& error) {
+      interface_.say(error.what(), true);
+    }
+    drawn_at_ = seconds();
+    draw_seconds_ = drawn_at_ - begin;
+    drawn_version_ = interface_.version();
+    have_picture_ = true;
+  }
+
+  void draw_interface() {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_.handle(), &width, &height);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    interface_.draw(have_picture_ ? renderer_.texture() : 0);
+    ImGui::Render();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glClearColor(0.1f, 0.1f, 0.1f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+
+  // Does what was asked for; false where the window is to close.
+  bool answer(const Interface::Requests& asked) {
+    if (asked.quit) return false;
+    if (asked.restyle) {
+      set_style(interface_.dark(), interface_.scale());
+      ImGui_ImplOpenGL3_DestroyFontsTexture();
+      ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+    try {
+      if (asked.screenshot) save_picture(asked.with_interface);
+      if (asked.start_recording) {
+        const auto [width, height] = interface_.picture_size();
+        recorder_.start(interface_.new_file("film", "mp4"), width, height);
+        session_.record(Recorder::fps);
+        interface_.say("Filming; press End film to finish");
+      }
+      if (asked.stop_recording && recorder_.running()) {
+        session_.record(0);
+        session_.finish_tasks();
+        poll();
+        recorder_.finish();
+        interface_.say("Wrote " + recorder_.file().string());
+      }
+    } catch (const std::exception& error) {
+      interface_.say(error.what(), true);
+    }
+    return true;
+  }
+
+  void save_picture(bool with_interface) {
+    const auto file = interface_.new_file(with_interface ? "window" : "picture", "png");
+    std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
+    write_png(file, with_interface ? window_picture(window_.handle()) : renderer_.read());
+    interface_.say("Wrote " + file.string());
+  }
+
+  Window& window_;
+  Session& session_;
+  Interface& interface_;
+  Renderer renderer_;
+  Recorder recorder_;
+  std::uint64_t drawn_version_ = 0;
+  double drawn_at_ = 0, draw_seconds_ = 0, last_input_ = 0;
+  bool have_picture_ = false;
+};
+
+}  // namespace
+
+int gui_command(const std::string& scene) {
+  Window window;
+  Session session;
+  Interface::Settings settings;
+  settings.assets = assets_folder();
+  settings.scale = window.scale();
+  Interface interface(session, settings);
+  interface.open(scene.empty() ? "pillars" : scene);
+  Loop(window, session, interface).go();
+  return 0;
+}
+
+}  // namespace curlew

@@ -1,0 +1,335 @@
+#include "app/session.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <new>
+#include <optional>
+
+#include "app/saving.h"
+#include "sim/core/error.h"
+#include "sim/measure/diagnostics.h"
+#include "sim/measure/state_hash.h"
+
+namespace curlew {
+namespace {
+
+double now() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+struct PassTimes : PassObserver {
+  explicit PassTimes(std::vector<float>& ms) : ms_pass(ms) { ms_pass.assign(pass_table().size(), 0); }
+  void after(const Pass& pass, const World&, double milliseconds) override {
+    ms_pass[static_cast<std::size_t>(&pass - pass_table().data())] = static_cast<float>(milliseconds);
+  }
+  std::vector<float>& ms_pass;
+};
+
+// Nobody looks at a session for hours and still wants all samples: beyond this the oldest half is dropped.
+constexpr std::size_t most_samples = 200000;
+// The solver waits while so many recorded frames are not yet taken.
+constexpr std::size_t most_recorded = 3;
+
+}  // namespace
+
+Session::Session(int threads) : threads_(threads) {
+  thread_ = std::thread([this] { work(); });
+}
+
+Session::~Session() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  wake_.notify_all();
+  room_.notify_all();
+  thread_.join();
+}
+
+void Session::post(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  wake_.notify_all();
+}
+
+void Session::open(Scene scene, std::uint64_t seed) {
+  {
+    const std::lock_guard lock(mutex_);
+    cancelled_ = false;
+    status_.loading = true;
+    status_.loading_what = scene.name;
+    loading_since_ = now();
+  }
+  post([this, scene = std::move(scene), seed] { lay_out(scene, seed); });
+}
+
+void Session::cancel() {
+  const std::lock_guard lock(mutex_);
+  if (status_.loading) cancelled_ = true;
+}
+
+void Session::play(bool on) {
+  {
+    const std::lock_guard lock(mutex_);
+    playing_ = on && loaded_;
+    if (on) diverged_ = false;
+  }
+  wake_.notify_all();
+}
+
+void Session::step_once() {
+  post([this] {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!loaded_ || playing_) return;
+      diverged_ = false;
+    }
+    advance();
+  });
+}
+
+void Session::set_parameters(const Parameters& parameters) {
+  post([this, parameters] {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!loaded_) return;
+    }
+    for (const ParameterRow& row : parameter_table()) {
+      if (row.live) row.set(world_.scene.parameters, row.get(parameters));
+    }
+    plan();
+    const std::lock_guard lock(mutex_);
+    parameters_ = world_.scene.parameters;
+  });
+}
+
+void Session::colour_by(const std::string& field) {
+  post([this, field] {
+    colour_ = field;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!loaded_) return;
+    }
+    plan();
+    publish();
+  });
+}
+
+void Session::save_checkpoint(const std::string& file) {
+  post([this, file] {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!loaded_) return;
+    }
+    curlew::save_checkpoint(file, world_);
+    say("Saved " + file + "; go on with: curlew run --resume " + file);
+  });
+}
+
+void Session::record(double fps) {
+  post([this, fps] {
+    recording_fps_ = fps;
+    next_recorded_ = fps > 0 ? static_cast<std::int64_t>(std::floor(world_.time * fps * (1 + 1e-12))) + 1 : 0;
+    const std::lock_guard lock(mutex_);
+    status_.recording = fps > 0;
+  });
+  room_.notify_all();
+}
+
+Session::Update Session::poll() {
+  Update update;
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = !loaded_    ? RunState::empty
+                    : diverged_ ? RunState::diverged
+                    : playing_  ? RunState::playing
+                                : RunState::paused;
+    status_.loading_seconds = status_.loading ? now() - loading_since_ : 0;
+    update.status = status_;
+    update.frame = std::move(frame_);
+    frame_ = nullptr;
+    if (update.frame) frame_taken_ = true;
+    std::swap(update.samples, samples_);
+    std::swap(update.recorded, recorded_);
+    std::swap(update.messages, messages_);
+    update.parameters = parameters_;
+  }
+  room_.notify_all();
+  return update;
+}
+
+void Session::finish_tasks() {
+  std::promise<void> done;
+  post([&] { done.set_value(); });
+  done.get_future().wait();
+}
+
+std::string Session::state_hash() {
+  std::promise<std::string> text;
+  post([&] { text.set_value(hash_text(curlew::state_hash(world_.fields))); });
+  return text.get_future().get();
+}
+
+void Session::say(std::string message) {
+  const std::lock_guard lock(mutex_);
+  messages_.push_back(std::move(message));
+}
+
+void Session::work() {
+  if (threads_ > 0) omp_set_num_threads(threads_);
+  for (;;) {
+    std::function<void()> task;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return closing_ || !tasks_.empty() || playing_; });
+      if (closing_) return;
+      if (!tasks_.empty()) {
+        task = std::move(tasks_.front());
+        tasks_.pop_front();
+      }
+    }
+    try {
+      if (task) {
+        task();
+      } else {
+        advance();
+      }
+    } catch (const std::exception& error) {  // bad input, a full disk, no memory: the run that is there stays
+      say(error.what());
+    }
+  }
+}
+
+void Session::lay_out(Scene scene, std::uint64_t seed) {
+  std::optional<World> world;
+  std::string failure;
+  try {
+    world = make_world(scene, seed);
+  } catch (const std::bad_alloc&) {
+    failure = scene.name + " does not fit into memory; choose fewer particles";
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    status_.loading = false;
+    if (cancelled_) {
+      messages_.push_back("Cancelled; the run that was there goes on");
+      return;
+    }
+    if (!failure.empty()) {
+      messages_.push_back(failure);
+      return;
+    }
+    playing_ = diverged_ = false;
+  }
+  adopt(std::move(*world));
+}
+
+void Session::adopt(World world) {
+  world_ = std::move(world);
+  geometry_ = make_geometry(world_.scene);
+  pace_.clear();
+  plan_ = {};
+  plan();
+  {
+    const std::lock_guard lock(mutex_);
+    loaded_ = true;
+    ++status_.scene_number;
+    samples_.clear();
+    recorded_.clear();
+    parameters_ = world_.scene.parameters;
+  }
+  next_recorded_ = 0;
+  publish();
+}
+
+// The steps run the plan that needs no picture; what only the picture needs runs when one is taken.
+void Session::plan() {
+  const Plan bare = make_plan(world_), full = make_plan(world_, colour_demand(colour_));
+  const bool changed = bare.step != plan_.step;
+  plan_ = bare;
+  plan_.fields = full.fields;
+  for_frames_.clear();
+  for (const Pass* pass : full.step) {
+    if (std::find(bare.step.begin(), bare.step.end(), pass) == bare.step.end()) for_frames_.push_back(pass);
+  }
+  if (changed) {
+    prepare(world_, plan_);  // a pass that was off before has left nothing for the next step
+  } else {
+    allocate(world_, plan_);
+  }
+  const std::lock_guard lock(mutex_);
+  status_.solver_bytes = allocated_bytes(world_);
+}
+
+void Session::advance() {
+  PassTimes times(ms_pass_);
+  const double begin = now();
+  try {
+    step(world_, plan_, &times);
+  } catch (const DivergedError& error) {
+    publish();
+    const std::lock_guard lock(mutex_);
+    playing_ = false;
+    diverged_ = true;
+    messages_.push_back(error.what());
+    return;
+  }
+  const double end = now();
+  const Diagnostics d = diagnose(world_);
+  const StepReport& r = world_.report;
+  pace_.emplace_back(end, world_.time);
+  while (pace_.size() > 2 && pace_.front().first < end - 1) pace_.pop_front();
+  const double wall = pace_.back().first - pace_.front().first;
+  bool wanted = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (samples_.size() >= most_samples) samples_.erase(samples_.begin(), samples_.begin() + most_samples / 2);
+    samples_.push_back({world_.step, world_.time, world_.dt, d.kinetic, d.potential, r.density_error_true_avg,
+                        r.density_error_avg, r.divergence_error, r.pressure_iterations, r.divergence_iterations,
+                        1e3 * (end - begin), ms_pass_});
+    if (wall > 0) {
+      status_.real_time_factor = (pace_.back().second - pace_.front().second) / wall;
+      status_.steps_a_second = static_cast<double>(pace_.size() - 1) / wall;
+    }
+    wanted = frame_taken_ || !playing_;
+  }
+  keep_recorded_frames();
+  if (wanted) publish();
+}
+
+void Session::publish() {
+  for (const Pass* pass : for_frames_) pass->run(world_);
+  auto frame = std::make_shared<const Frame>(make_frame(world_, colour_, geometry_));
+  const std::lock_guard lock(mutex_);
+  frame_ = std::move(frame);
+  frame_taken_ = false;
+  status_.particles = world_.count;
+  status_.step = world_.step;
+  status_.time = world_.time;
+  status_.dt = world_.dt;
+}
+
+void Session::keep_recorded_frames() {
+  if (recording_fps_ <= 0) return;
+  const auto due = static_cast<std::int64_t>(std::floor(world_.time * recording_fps_ * (1 + 1e-12)));
+  if (due < next_recorded_) return;
+  for (const Pass* pass : for_frames_) pass->run(world_);
+  const auto frame = std::make_shared<const Frame>(make_frame(world_, colour_, geometry_));
+  for (; next_recorded_ <= due; ++next_recorded_) {
+    std::unique_lock lock(mutex_);
+    // What was asked for meanwhile, such as an end of the recording, must not wait for the taker.
+    room_.wait(lock, [&] { return closing_ || !tasks_.empty() || recorded_.size() < most_recorded; });
+    recorded_.push_back(frame);
+  }
+}
+
+}  // namespace curlew
