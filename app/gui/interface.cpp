@@ -141,7 +141,7 @@ void Interface::update_view() {
   const double aspect = static_cast<double>(picture_size_[0]) / picture_size_[1];
   if (orbit_is_new_) {
     orbit_ = Orbit(scene_.camera, latest_->geometry->domain, latest_->geometry->dimension, aspect);
-    orbit_is_new_ = false;
+    orbit_is_new_ = orbit_is_own_ = false;
   }
   view_.camera = orbit_.camera();
   view_.flat_zoom = orbit_.flat_zoom();
@@ -174,10 +174,11 @@ void Interface::update_view() {
 void Interface::draw(unsigned picture) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const auto em = static_cast<float>(14 * scale_);
-  const float bar = 2.7f * em, line = 1.9f * em;
-  const float left = show_parameters_ ? std::min(25 * em, 0.4f * size.x) : 0;
-  const float right = show_view_ ? std::min(17 * em, 0.3f * size.x) : 0;
-  const float bottom = show_plots_ ? std::min(14 * em, 0.35f * size.y) : 0;
+  // Whole pixels: between them the background would show.
+  const float bar = std::ceil(2.7f * em), line = std::ceil(1.9f * em);
+  const float left = show_parameters_ ? std::ceil(std::min(25 * em, 0.4f * size.x)) : 0;
+  const float right = show_view_ ? std::ceil(std::min(17 * em, 0.3f * size.x)) : 0;
+  const float bottom = show_plots_ ? std::ceil(std::min(14 * em, 0.35f * size.y)) : 0;
   places_.clear();
   handle_keys();
   draw_toolbar(bar);
@@ -274,6 +275,7 @@ void Interface::draw_picture(unsigned picture, std::array<float, 4> box) {
             height = std::max(16, static_cast<int>(box[3] - box[1]));
   if (picture_size_ != std::array<int, 2>{width, height}) {
     picture_size_ = {width, height};
+    orbit_is_new_ = orbit_is_new_ || !orbit_is_own_;  // a fitted view fits the new size
     update_view();
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -309,7 +311,9 @@ void Interface::handle_mouse(std::array<float, 4> box) {
     orbit_.zoom(double{io.MouseWheel});
     changed = true;
   }
-  if (changed) update_view();
+  if (!changed) return;
+  orbit_is_own_ = true;
+  update_view();
 }
 
 void Interface::handle_keys() {
@@ -335,12 +339,14 @@ void Interface::handle_keys() {
   const double aspect = static_cast<double>(picture_size_[0]) / picture_size_[1];
   if (pressed('F')) {
     orbit_.fit(scene_.domain, aspect);
+    orbit_is_own_ = true;
     update_view();
   }
   constexpr const char* sides[] = {"front", "back", "left", "right", "top", "corner"};
   for (int k = 0; k < 6; ++k) {
     if (!pressed('1' + k) || scene_.dimension == 2) continue;
     orbit_.look_from(sides[k], scene_.domain, aspect);
+    orbit_is_own_ = true;
     update_view();
   }
 }

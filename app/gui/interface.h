@@ -59,6 +59,7 @@ class Interface {
   const Scene& scene() const { return scene_; }
   const std::vector<Sample>& samples() const { return samples_; }
   const SessionStatus& status() const { return status_; }
+  const std::string& message() const { return message_; }
   std::string command_line() const;
 
   // Where a widget was drawn last (left, top, right, bottom in pixels); throws where there is none. For scripts.
@@ -120,7 +121,7 @@ class Interface {
   std::shared_ptr<const Frame> latest_, shown_;
   ViewSettings view_;
   Orbit orbit_;
-  bool orbit_is_new_ = true;
+  bool orbit_is_new_ = true, orbit_is_own_ = false;  // to be taken from the scene; moved by hand
   std::uint64_t version_ = 0;
   std::optional<std::array<double, 2>> range_;  // of the colours so far
   bool own_range_ = false;                      // the user's

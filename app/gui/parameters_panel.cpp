@@ -22,7 +22,7 @@ std::string label_of(const ParameterRow& row) {
   std::string name = member_of(row);
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string label = row.symbol.empty() ? name : written_symbol(row.symbol) + "  " + name;
-  if (row.unit != "1" && !row.unit.empty()) label += " (" + row.unit + ")";
+  if (row.unit != "1" && !row.unit.empty()) label += " (" + written_unit(row.unit) + ")";
   return label;
 }
 

@@ -76,6 +76,7 @@ void draw_grid(ImDrawList& list, const Axes& axes, float line_height) {
   for (const double t : round_ticks({axes.t0, axes.t1}, columns).at) {
     const std::string text = short_number(t);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    if (axes.x(t) + 0.5f * size.x > axes.high.x - line_height) continue;  // the unit stands there
     list.AddLine({axes.x(t), axes.low.y}, {axes.x(t), axes.high.y}, grid);
     list.AddText({axes.x(t) - 0.5f * size.x, axes.high.y + 3}, ink, text.c_str());
   }
@@ -133,25 +134,33 @@ void draw_values_under_mouse(ImDrawList& list, const Plot& plot, const Axes& axe
 
 }  // namespace
 
+namespace {
+
+void draw_legend(ImDrawList& list, const Plot& plot, ImVec2 at, float width) {
+  const float line = ImGui::GetTextLineHeight(), right = at.x + width;
+  for (std::size_t k = 0; k < plot.series.size() && plot.series.size() > 1; ++k) {
+    const float wide = ImGui::CalcTextSize(plot.series[k].name.c_str()).x;
+    if (at.x + 0.8f * line + wide > right) break;
+    list.AddLine({at.x, at.y + 0.55f * line}, {at.x + 0.5f * line, at.y + 0.55f * line}, colour_of(k), 2);
+    list.AddText({at.x + 0.7f * line, at.y}, ImGui::GetColorU32(ImGuiCol_Text, 0.8f), plot.series[k].name.c_str());
+    at.x += wide + 1.3f * line;
+  }
+}
+
+}  // namespace
+
 void draw_plot(const Plot& plot, std::span<const Sample> samples, float width, float height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float line = ImGui::GetTextLineHeight();
   const std::string title = plot.title + (plot.unit.empty() ? "" : " (" + plot.unit + ")");
   list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), title.c_str());
-  float x = corner.x + ImGui::CalcTextSize(title.c_str()).x + line;
-  for (std::size_t k = 0; k < plot.series.size() && plot.series.size() > 1; ++k) {
-    const float wide = ImGui::CalcTextSize(plot.series[k].name.c_str()).x;
-    if (x + wide + line > corner.x + width) break;
-    list.AddLine({x, corner.y + 0.55f * line}, {x + 0.8f * line, corner.y + 0.55f * line}, colour_of(k), 2);
-    list.AddText({x + line, corner.y}, ImGui::GetColorU32(ImGuiCol_Text, 0.8f), plot.series[k].name.c_str());
-    x += wide + 2 * line;
-  }
+  draw_legend(list, plot, {corner.x, corner.y + 1.2f * line}, width);
   ImGui::InvisibleButton(plot.title.c_str(), {width, height});
   const bool hovered = ImGui::IsItemHovered();
   const auto [y0, y1] = value_range(plot, samples);
   const double t0 = samples.empty() ? 0 : samples.front().time, t1 = samples.empty() ? 1 : samples.back().time;
-  const Axes axes{{corner.x + 3.9f * line, corner.y + 1.35f * line},
+  const Axes axes{{corner.x + 3.9f * line, corner.y + (plot.series.size() > 1 ? 2.6f : 1.5f) * line},
                   {corner.x + width - 0.5f * line, corner.y + height - 1.5f * line},
                   t0,
                   t1 > t0 ? t1 : t0 + 1,

@@ -18,7 +18,7 @@ std::vector<Plot> make_plots() {
       {"Compression",
        "%",
        {{"true", [](const Sample& s) { return 100 * s.compression; }},
-        {"after the solve", [](const Sample& s) { return 100 * s.compression_target; }},
+        {"solved", [](const Sample& s) { return 100 * s.compression_target; }},
         {"divergence", [](const Sample& s) { return 100 * s.divergence_error; }}},
        true},
       {"Iterations",
@@ -31,10 +31,10 @@ std::vector<Plot> make_plots() {
   Plot cost{"Cost of a step", "ms", {{"step", [](const Sample& s) { return s.ms_step; }}}, false};
   for (std::size_t k = 0; k < pass_table().size(); ++k) {
     const std::string_view name = pass_table()[k].name;
-    for (const std::string_view shown : {"density_solve", "divergence_solve", "neighbours", "viscosity", "density"}) {
-      if (name != shown) continue;
-      cost.series.push_back(
-          {std::string(name), [k](const Sample& s) { return k < s.ms_pass.size() ? double(s.ms_pass[k]) : 0; }});
+    for (const auto& [pass, shown] :
+         {std::pair("density_solve", "density"), {"divergence_solve", "divergence"}, {"neighbours", "neighbours"}}) {
+      if (name != pass) continue;
+      cost.series.push_back({shown, [k](const Sample& s) { return k < s.ms_pass.size() ? double(s.ms_pass[k]) : 0; }});
     }
   }
   plots.push_back(std::move(cost));

@@ -89,4 +89,16 @@ std::string written_symbol(const std::string& symbol) {
   return text + "_" + below;
 }
 
+std::string written_unit(const std::string& unit) {
+  std::string text;
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    if (unit[k] == '^' && k + 1 < unit.size() && (unit[k + 1] == '2' || unit[k + 1] == '3')) {
+      text += unit[++k] == '2' ? "\u00b2" : "\u00b3";
+    } else {
+      text += unit[k];
+    }
+  }
+  return text;
+}
+
 }  // namespace curlew

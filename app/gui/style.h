@@ -11,5 +11,7 @@ void set_style(bool dark, double scale);
 
 // A paper's symbol as it is written by hand: "nu" becomes the Greek letter where the font has it.
 std::string written_symbol(const std::string& symbol);
+// "m^2/s" with a raised 2.
+std::string written_unit(const std::string& unit);
 
 }  // namespace curlew

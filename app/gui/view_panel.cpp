@@ -96,19 +96,19 @@ void Interface::draw_view() {
       const std::string tip = "Key " + std::to_string(k);
       if (button(side, tip.c_str(), scene_.dimension == 3)) {
         orbit_.look_from(side, scene_.domain, aspect);
-        changed = true;
+        orbit_is_own_ = changed = true;
       }
     }
     if (button("Fit (F)", "All of the domain in sight")) {
       orbit_.fit(scene_.domain, aspect);
-      changed = true;
+      orbit_is_own_ = changed = true;
     }
     ImGui::SameLine();
     if (button("Scene's", "As the scene has its camera")) {
       orbit_is_new_ = true;
       changed = true;
     }
-    ImGui::TextDisabled("drag: turn   right-drag: move   wheel: zoom");
+    ImGui::TextDisabled("drag turns, right-drag moves,\nthe wheel zooms");
   }
   if (ImGui::CollapsingHeader("Interface", ImGuiTreeNodeFlags_DefaultOpen)) {
     if (ImGui::Checkbox("dark", &dark_)) {

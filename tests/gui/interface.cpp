@@ -1,0 +1,274 @@
+// What a hand does with the window, without a display: every panel, slider, button and key.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "app/gui/plot.h"
+#include "render/png.h"
+#include "sim/scene/reader.h"
+#include "tests/gui/desk.h"
+#include "tests/io/temporary_folder.h"
+
+using namespace curlew;
+using namespace curlew::test;
+
+namespace {
+
+// A scene that is laid out and stepped in no time.
+constexpr const char* small = CURLEW_ASSETS_DIR "/scenes/dam_break_2d.json";
+
+// For eyes: CURLEW_KEEP_WINDOWS=folder keeps the pictures.
+void keep(Desk& desk, const std::string& name) {
+  if (const char* folder = std::getenv("CURLEW_KEEP_WINDOWS")) {
+    write_png(std::filesystem::path(folder) / (name + ".png"), desk.picture());
+  }
+}
+
+int colours_in(const Image& image, std::array<float, 4> box) {
+  std::set<std::uint32_t> found;
+  for (int y = static_cast<int>(box[1]); y < static_cast<int>(box[3]); ++y) {
+    for (int x = static_cast<int>(box[0]); x < static_cast<int>(box[2]); ++x) {
+      const auto* p = image.at(x, y);
+      found.insert(static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]));
+    }
+  }
+  return static_cast<int>(found.size());
+}
+
+bool overlap(std::array<float, 4> a, std::array<float, 4> b) {
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+}  // namespace
+
+TEST_CASE("a slider that is dragged changes what the solver reads, and undo takes it back") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  const double before = desk.parameters.viscosity.nu;
+  desk.drag("viscosity.nu", 0.05f, 0.6f);
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == Approx(0.03).epsilon(0.1));  // 0.6 of a slider to 0.05
+  desk.click("step");
+  desk.settle();
+  CHECK(desk.interface().samples().size() == 1);
+  CHECK(desk.interface().command_line().find("--set viscosity.nu=0.0") != std::string::npos);
+  desk.key('Z', true);
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == before);
+  desk.key('Y', true);
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == Approx(0.03).epsilon(0.1));
+  desk.double_click("label viscosity.nu");
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == before);
+}
+
+TEST_CASE("play, pause, step and reset, by mouse and by key") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  desk.click("step");
+  desk.key('S');
+  desk.settle();
+  CHECK(desk.interface().status().step == 2);
+  desk.click("play");
+  for (int k = 0; k < 500 && desk.interface().status().step < 10; ++k) desk.draw();
+  CHECK(desk.interface().status().state == RunState::playing);
+  CHECK(desk.interface().status().step >= 10);
+  desk.key(' ');
+  desk.settle();
+  CHECK(desk.interface().status().state == RunState::paused);
+  desk.click("reset");
+  desk.settle();
+  CHECK(desk.interface().status().step == 0);
+  CHECK(desk.interface().samples().empty());
+}
+
+TEST_CASE("another scene is picked from the list") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  desk.click("scene");
+  desk.draw();
+  desk.click("scene taylor_green");
+  desk.settle();
+  CHECK(desk.interface().scene().name == "Taylor-Green vortices in 2D");
+  CHECK(desk.interface().status().particles == 2500);
+  CHECK(desk.interface().frame()->geometry->dimension == 2);
+}
+
+TEST_CASE("the view turns, moves, zooms, and comes back") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open("free_fall");
+  const Vec3d before = *desk.interface().view().camera.position;
+  desk.drag_in_picture(100, 20);
+  const Vec3d turned = *desk.interface().view().camera.position;
+  CHECK(length(turned - before) > 0.1);
+  desk.drag_in_picture(50, 30, 1);
+  CHECK(length(*desk.interface().view().camera.position - turned) > 0.01);
+  const double distance = length(*desk.interface().view().camera.position - *desk.interface().view().camera.target);
+  desk.wheel(3);
+  CHECK(length(*desk.interface().view().camera.position - *desk.interface().view().camera.target) < 0.8 * distance);
+  desk.click("Scene's");
+  CHECK(length(*desk.interface().view().camera.position - before) < 1e-9);
+  desk.key('5');
+  const auto& camera = desk.interface().view().camera;
+  CHECK(camera.position->y - camera.target->y > 10 * std::abs(camera.position->x - camera.target->x));
+}
+
+TEST_CASE("colours, cut and drop size change the picture") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open("free_fall");
+  const auto all = desk.interface().frame()->position.size();
+  desk.click("cut");
+  desk.settle();
+  const auto half = desk.interface().frame()->position.size();
+  CHECK(half > all / 4);
+  CHECK(half < 3 * all / 4);
+  desk.drag("cut at", 0.35f, 0.3f);
+  desk.settle();
+  CHECK(desk.interface().frame()->position.size() < half);
+  desk.click("cut");
+  desk.drag("drop size", 0.6f, 0.1f);
+  CHECK(desk.interface().view().particle_scale.value_or(1) < 0.8);
+  desk.click("legend");
+  CHECK(!desk.interface().view().look.show_legend);
+}
+
+TEST_CASE("pictures and films are asked for, checkpoints, scenes and plots are written") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  desk.click("step");
+  desk.settle();
+  desk.click("Picture");
+  CHECK(desk.requests.screenshot);
+  CHECK(!desk.requests.with_interface);
+  desk.click("Window");
+  CHECK(desk.requests.with_interface);
+  desk.click("Film");
+  CHECK(desk.requests.start_recording);
+
+  desk.click("Checkpoint");
+  desk.settle();
+  CHECK(std::filesystem::exists(folder / "dam_break_2d/checkpoint_000.curlew"));
+  desk.drag("viscosity.nu", 0.05f, 0.6f);
+  desk.settle();
+  desk.click("Save");
+  const Scene saved = read_scene(folder / "dam_break_2d/scene_000.json");
+  CHECK(saved.parameters.viscosity.nu == desk.parameters.viscosity.nu);
+  desk.click("Energy.csv");
+  const std::string csv = file_text(folder / "dam_break_2d/energy_000.csv");
+  CHECK(csv.starts_with("step,time (s),mechanical (J),kinetic (J),potential (J)\n1,"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 2);
+}
+
+TEST_CASE("what is wrong is said, and the run stays") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  put_file(folder / "bad.json", "{\"curlew\": 1, \"name\": ");
+  desk.open(folder / "bad.json");
+  CHECK(desk.interface().message().find("bad.json") != std::string::npos);
+  CHECK(desk.interface().scene().name == "Dam break in 2D");
+  desk.open(folder / "nowhere.json");
+  CHECK(desk.interface().message().find("nowhere.json") != std::string::npos);
+  keep(desk, "error");
+  desk.click("OK");
+  CHECK(desk.interface().message().empty());
+}
+
+TEST_CASE("a run that diverged offers to go on with half the time step") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  put_file(folder / "wild.json", R"({"curlew": 1, "name": "Wild", "dimension": 2, "particle_radius": 0.02,
+    "domain": {"min": [0, 0], "max": [2, 2]}, "fluid": [{"box": {"min": [0, 0], "max": [1, 1]}}],
+    "parameters": {"time.fixed_step": 0.3}})");
+  desk.open(folder / "wild.json");
+  desk.click("play");
+  for (int k = 0; k < 500 && desk.interface().status().state != RunState::diverged; ++k) desk.draw();
+  REQUIRE(desk.interface().status().state == RunState::diverged);
+  desk.draw();
+  desk.draw();
+  CHECK(desk.interface().message().starts_with("the simulation diverged at step "));
+  keep(desk, "diverged");
+  desk.click("Go on with half the time step");
+  desk.settle();
+  CHECK(desk.parameters.time.fixed_step == 0.15);
+}
+
+TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on anything") {
+  const double scale = GENERATE(1.0, 2.0);
+  const TemporaryFolder folder;
+  Desk desk(folder.path(), static_cast<int>(1280 * scale), static_cast<int>(720 * scale), scale);
+  desk.open("free_fall");
+  desk.click("play");
+  for (int k = 0; k < 300 && desk.interface().status().step < 20; ++k) desk.draw();
+  desk.click("play");
+  desk.settle();
+  desk.move_to(1, 1);
+  keep(desk, "window_" + std::to_string(static_cast<int>(scale)));
+  const Image light = desk.picture();
+  for (const char* widget : {"picture", "plot Energy", "plot Compression", "plot Iterations", "plot Time step",
+                             "plot Cost of a step", "viscosity.nu", "colour by", "status"}) {
+    INFO(widget);
+    CHECK(colours_in(light, desk.interface().place(widget)) > 10);
+  }
+  const char* apart[] = {"scene",
+                         "play",
+                         "step",
+                         "reset",
+                         "Picture",
+                         "Window",
+                         "Film",
+                         "show parameters",
+                         "show view",
+                         "show plots",
+                         "Help",
+                         "Undo",
+                         "Redo",
+                         "Load",
+                         "Save",
+                         "viscosity.nu",
+                         "viscosity.form",
+                         "label viscosity.nu",
+                         "colour by",
+                         "map",
+                         "bodies",
+                         "legend",
+                         "drop size",
+                         "cut",
+                         "front",
+                         "left",
+                         "corner",
+                         "hold plots",
+                         "Energy.csv",
+                         "plot Energy",
+                         "plot Compression",
+                         "status"};
+  for (const char* a : apart) {
+    for (const char* b : apart) {
+      if (a == b) continue;
+      INFO(a << " and " << b);
+      CHECK(!overlap(desk.interface().place(a), desk.interface().place(b)));
+    }
+  }
+  desk.click("dark");
+  CHECK(desk.requests.restyle);
+  desk.restyle(true, scale);
+  desk.click("Help");
+  desk.draw();
+  keep(desk, "dark_help_" + std::to_string(static_cast<int>(scale)));
+  const Image dark = desk.picture();
+  CHECK(dark.at(5, 5)[0] < 80);
+  CHECK(light.at(5, 5)[0] > 200);
+  desk.click("show parameters");
+  desk.click("show view");
+  desk.click("show plots");
+  desk.draw();
+  CHECK(desk.interface().picture_size()[0] == static_cast<int>(1280 * scale));
+}
