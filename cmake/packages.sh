@@ -9,6 +9,6 @@ build_packages=(
   libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   ffmpeg
 )
-gui_packages=(libglfw3-dev libimgui-dev libgl1 libglx-mesa0)
-test_packages=(git catch2 libbenchmark-dev)
+gui_packages=(libglfw3-dev libimgui-dev libgl1 libglx-mesa0 fonts-dejavu-core)
+test_packages=(git catch2 libbenchmark-dev xvfb xauth xdotool)  # the last three: a real window on a virtual screen
 all_test_packages=(clang libomp-dev libclang-rt-dev)  # for tests/run --all: the second compiler, the thread sanitizer

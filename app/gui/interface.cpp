@@ -317,35 +317,35 @@ void Interface::handle_mouse(std::array<float, 4> box) {
 }
 
 void Interface::handle_keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput) return;
-  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-  const bool there = status_.state != RunState::empty, playing = status_.state == RunState::playing;
-  if (io.KeyCtrl) {
-    if (pressed('Z')) undo();
-    if (pressed('Y')) redo();
-    if (pressed('Q')) requests_.quit = true;
+  const std::vector<Key> keys = std::exchange(keys_, {});
+  if (ImGui::GetIO().WantTextInput) return;
+  for (const Key& key : keys) handle_key(key);
+}
+
+void Interface::handle_key(const Key& pressed) {
+  const int key = pressed.key;
+  if (pressed.ctrl) {
+    if (key == 'Z') undo();
+    if (key == 'Y') redo();
+    if (key == 'Q') requests_.quit = true;
     return;
   }
-  if (pressed('H')) show_help_ = !show_help_;
-  if (!there) return;
-  if (pressed(' ')) session_.play(!playing);
-  if (pressed('S') && !playing) session_.step_once();
-  if (pressed('R')) session_.open(scene_);
-  if (pressed('P')) {
+  if (key == 'H') show_help_ = !show_help_;
+  if (status_.state == RunState::empty) return;
+  const bool playing = status_.state == RunState::playing;
+  if (key == ' ') session_.play(!playing);
+  if (key == 'S' && !playing) session_.step_once();
+  if (key == 'R') session_.open(scene_);
+  if (key == 'P') {
     requests_.screenshot = true;
-    requests_.with_interface = io.KeyShift;
+    requests_.with_interface = pressed.shift;
   }
   const double aspect = static_cast<double>(picture_size_[0]) / picture_size_[1];
-  if (pressed('F')) {
-    orbit_.fit(scene_.domain, aspect);
-    orbit_is_own_ = true;
-    update_view();
-  }
   constexpr const char* sides[] = {"front", "back", "left", "right", "top", "corner"};
-  for (int k = 0; k < 6; ++k) {
-    if (!pressed('1' + k) || scene_.dimension == 2) continue;
-    orbit_.look_from(sides[k], scene_.domain, aspect);
+  const bool side = key >= '1' && key <= '6' && scene_.dimension == 3;
+  if (key == 'F') orbit_.fit(scene_.domain, aspect);
+  if (side) orbit_.look_from(sides[key - '1'], scene_.domain, aspect);
+  if (key == 'F' || side) {
     orbit_is_own_ = true;
     update_view();
   }

@@ -37,6 +37,10 @@ class Interface {
   // of the water, 0 before there is one.
   void draw(unsigned picture);
 
+  // A key went down: its letter or digit as in ASCII, upper case. Kept until the next draw(), so that a short tap
+  // between two pictures counts.
+  void press(int key, bool ctrl, bool shift) { keys_.push_back({key, ctrl, shift}); }
+
   // What the water's picture has to show; version() changes when it does.
   std::shared_ptr<const Frame> frame() const { return shown_; }
   const ViewSettings& view() const { return view_; }
@@ -66,6 +70,11 @@ class Interface {
   std::array<float, 4> place(std::string_view widget) const;
 
  private:
+  struct Key {
+    int key;
+    bool ctrl, shift;
+  };
+
   // interface.cpp: layout, tool bar, picture, shortcuts
   void draw_toolbar(float height);
   void draw_picture(unsigned picture, std::array<float, 4> box);
@@ -73,6 +82,7 @@ class Interface {
   void draw_help();
   void draw_loading();
   void handle_keys();
+  void handle_key(const Key& pressed);
   void handle_mouse(std::array<float, 4> box);
   void update_view();
   bool button(const char* label, const char* tip, bool enabled = true);
@@ -135,6 +145,7 @@ class Interface {
   double scale_ = 1;
   std::array<int, 2> picture_size_{640, 360};
   Requests requests_;
+  std::vector<Key> keys_;
   std::map<std::string, std::array<float, 4>, std::less<>> places_;
 };
 

@@ -36,6 +36,12 @@ constexpr double picture_share = 0.15;
 constexpr double idle_interval = 0.1, busy_interval = 1.0 / 60;  // s, between pictures of the interface
 constexpr double busy_after_input = 0.5;                         // s
 
+void key_changed(GLFWwindow* window, int key, int, int action, int modifiers) {
+  auto* interface = static_cast<Interface*>(glfwGetWindowUserPointer(window));
+  if (interface == nullptr || action != GLFW_PRESS) return;
+  interface->press(key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0);
+}
+
 class Window {
  public:
   Window() {
@@ -67,6 +73,7 @@ class Window {
     if (gladLoadGL(glfwGetProcAddress) == 0) throw GraphicsError("the window's OpenGL cannot be loaded");
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
+    glfwSetKeyCallback(window_, key_changed);  // Dear ImGui calls it too
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 450");
   }
@@ -110,6 +117,7 @@ class Loop {
 
   void go() {
     set_style(interface_.dark(), interface_.scale());
+    glfwSetWindowUserPointer(window_.handle(), &interface_);
     while (glfwWindowShouldClose(window_.handle()) == 0) {
       const double begin = seconds();
       poll();

@@ -130,15 +130,8 @@ void Desk::wheel(float notches) {
 }
 
 void Desk::key(int key, bool ctrl) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.KeyCtrl = ctrl;
-  io.KeysDown[key] = true;
+  interface_->press(key, ctrl, false);
   draw();
-  const Interface::Requests asked = requests;
-  io.KeysDown[key] = false;
-  io.KeyCtrl = false;
-  draw();
-  requests = asked;
 }
 
 void Desk::open(const std::string& scene) {

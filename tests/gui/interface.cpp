@@ -272,3 +272,18 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
   desk.draw();
   CHECK(desk.interface().picture_size()[0] == static_cast<int>(1280 * scale));
 }
+
+// Not a test: where the widgets of a new window are, for real_window.sh, one a line: left, top, right, bottom, name.
+TEST_CASE("places of the widgets", "[.places]") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  desk.draw();
+  desk.click("scene");
+  desk.draw();
+  for (const char* widget : {"scene", "play", "step", "reset", "Picture", "Window", "Film", "Checkpoint",
+                             "viscosity.nu", "Energy.csv", "picture", "scene free_fall"}) {
+    const auto box = desk.interface().place(widget);
+    std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
+  }
+}
