@@ -73,6 +73,17 @@ void Desk::move_to(float x, float y) {
   draw();
 }
 
+void Desk::press_at(float x, float y) {
+  move_to(x, y);
+  ImGui::GetIO().MouseDown[0] = true;
+  draw();
+}
+
+void Desk::release() {
+  ImGui::GetIO().MouseDown[0] = false;
+  draw();
+}
+
 void Desk::click(std::string_view widget) {
   const auto box = interface_->place(widget);
   move_to(0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3]));

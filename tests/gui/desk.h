@@ -26,6 +26,8 @@ class Desk {
   void settle();
 
   void move_to(float x, float y);
+  void press_at(float x, float y);
+  void release();
   void click(std::string_view widget);
   void double_click(std::string_view widget);
   // Presses on the widget at one fraction of its width and lets go at another.
