@@ -95,8 +95,18 @@ void add_common_options(CLI::App& app, RunOptions& o) {
   app.add_option_function<std::string>("--particles", particles, "Resolution that comes nearest: 24k, 1.2M, 1e5");
 }
 
+void add_threads_and_seed(CLI::App& app, RunOptions& o) {
+  app.add_option_function<std::string>(
+      "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
+  const auto seed = [&](const std::string& t) {
+    o.seed = static_cast<std::uint64_t>(parse_count("--seed", t, 0, most_seed));
+  };
+  app.add_option_function<std::string>("--seed", seed, "Seed of all random numbers (0)");
+}
+
 void add_run_options(CLI::App& app, RunOptions& o) {
   add_common_options(app, o);
+  add_threads_and_seed(app, o);
   const auto positive = [&](const char* name, auto& target, const char* unit, const char* help,
                             double most = no_limit) {
     app.add_option_function<std::string>(
@@ -114,8 +124,6 @@ void add_run_options(CLI::App& app, RunOptions& o) {
   positive("--time", o.time, "seconds", "Simulated seconds, from the start of the run (also after a resume)");
   count("--steps", o.steps, 1, most_steps, "Steps, from the start of the run");
   positive("--fps", o.fps, "frames a second", "Frames a simulated second (60)", most_frames_a_second);
-  count("--threads", o.threads, 1, most_threads, "Threads (all cores)");
-  count("--seed", o.seed, 0, most_seed, "Seed of all random numbers (0)");
   add_path(app, "--out", o.out, "Folder of the run (out/NAME)");
   app.add_option_function<std::string>(
       "--stats",
@@ -221,11 +229,11 @@ int dispatch(int argc, char** argv) {
 
   RunOptions run;
   BenchOptions bench;
-  std::string gui_scene;
   for (int k = 0; k < argc; ++k) run.command += (k == 0 ? "" : " ") + std::string(k == 0 ? "curlew" : argv[k]);
 
   CLI::App* gui = app.add_subcommand("gui", "Open the window");
-  gui->add_option("SCENE", gui_scene, "Scene file, or the name of a bundled scene");
+  add_common_options(*gui, run);
+  add_threads_and_seed(*gui, run);
   CLI::App* run_app = app.add_subcommand("run", "Simulate with no window; write what is asked for");
   add_run_options(*run_app, run);
   CLI::App* check = app.add_subcommand("check", "Read a scene and say what it holds");
@@ -259,7 +267,7 @@ int dispatch(int argc, char** argv) {
                           : schema   ? ParameterFormat::schema
                                      : ParameterFormat::text);
   }
-  return gui_command(gui_scene);
+  return gui_command(run);
 }
 
 }  // namespace curlew

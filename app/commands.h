@@ -14,8 +14,8 @@ enum class ParameterFormat { text, json, markdown, schema };
 int params_command(ParameterFormat format);
 int doctor_command();
 int bench_command(const BenchOptions& options);
-// The window.
-int gui_command(const std::string& scene);
+// The window; of the options it heeds scene, settings, resolution, threads and seed.
+int gui_command(const RunOptions& options);
 
 std::string version_text();
 

@@ -194,7 +194,7 @@ int doctor_command() {
 }
 
 #if !defined(CURLEW_GUI)
-int gui_command(const std::string&) {
+int gui_command(const RunOptions&) {
   throw GraphicsError(
       "built without a window (CURLEW_GUI=OFF); run without one, for example: curlew run pillars --frames");
 }

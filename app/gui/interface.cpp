@@ -39,17 +39,21 @@ Interface::Interface(Session& session, Settings settings) : session_(session), s
   scale_ = settings_.scale;
 }
 
-void Interface::open(const std::string& scene) {
+void Interface::open(const std::string& name) {
   try {
-    scene_ = read_scene(find_scene(scene, settings_.assets));
-    check_resolution(scene_);
+    const Scene scene = read_scene(find_scene(name, settings_.assets));
+    check_resolution(scene);
+    open(name, scene, scene);
   } catch (const std::exception& error) {
     say(error.what(), true);
-    return;
   }
-  scene_name_ = scene;
-  own_ = scene_.parameters;
-  own_radius_ = scene_.particle_radius;
+}
+
+void Interface::open(const std::string& name, const Scene& scene, const Scene& own) {
+  scene_name_ = name;
+  scene_ = scene;
+  own_ = own.parameters;
+  own_radius_ = own.particle_radius;
   past_.clear();
   future_.clear();
   view_.look = scene_.look;
@@ -59,7 +63,7 @@ void Interface::open(const std::string& scene) {
   own_range_ = range_.has_value();
   orbit_is_new_ = true;
   session_.colour_by(scene_.look.colour_by);
-  session_.open(scene_);
+  session_.open(scene_, settings_.seed);
 }
 
 void Interface::take(Session::Update update) {
@@ -244,7 +248,7 @@ void Interface::draw_toolbar(float height) {
   }
   if (same_size("Step", "step", "One time step (S)", there && !playing)) session_.step_once();
   if (same_size("Reset", "reset", "From the start, with the parameters as they are set (R)", there))
-    session_.open(scene_);
+    session_.open(scene_, settings_.seed);
   ImGui::SameLine(0, 2 * ImGui::GetFontSize());
   if (button("Picture", "Save the picture of the water (P)", there)) requests_.screenshot = true;
   ImGui::SameLine();
@@ -335,7 +339,7 @@ void Interface::handle_key(const Key& pressed) {
   const bool playing = status_.state == RunState::playing;
   if (key == ' ') session_.play(!playing);
   if (key == 'S' && !playing) session_.step_once();
-  if (key == 'R') session_.open(scene_);
+  if (key == 'R') session_.open(scene_, settings_.seed);
   if (key == 'P') {
     requests_.screenshot = true;
     requests_.with_interface = pressed.shift;

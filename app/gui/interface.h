@@ -25,11 +25,14 @@ class Interface {
     std::filesystem::path assets;       // folder of the bundled scenes
     std::filesystem::path out = "out";  // where screenshots, films, checkpoints and saved scenes go
     double scale = 1;                   // of the display
+    std::uint64_t seed = 0;
   };
   Interface(Session& session, Settings settings);
 
   // A bundled name or a file. What is wrong with it is shown, not thrown.
-  void open(const std::string& scene);
+  void open(const std::string& name);
+  // The same with changes that were made on the way; `own` is the scene as its file has it.
+  void open(const std::string& name, const Scene& scene, const Scene& own);
   void take(Session::Update update);
   void say(const std::string& message, bool error = false);
 

@@ -36,7 +36,7 @@ void tool_tip(const ParameterRow& row) {
     ImGui::TextDisabled("default %s, slider %s to %s, limits %s to %s%s%s", number_text(row.default_value).c_str(),
                         number_text(row.slider_min).c_str(), number_text(row.slider_max).c_str(),
                         number_text(row.min).c_str(), number_text(row.max).c_str(), row.unit == "1" ? "" : " ",
-                        row.unit == "1" ? "" : row.unit.c_str());
+                        row.unit == "1" ? "" : written_unit(row.unit).c_str());
     ImGui::TextDisabled("Ctrl-click to type a number, double-click the name to go back to the scene's own value.");
   } else {
     ImGui::TextDisabled("default %s. Double-click the name to go back to the scene's own value.",
@@ -194,7 +194,7 @@ void Interface::draw_resolution() {
       const bool same = wanted_particles_ == static_cast<int>(status_.particles);
       Scene next = same ? scene_ : with_particles(scene_, wanted_particles_);
       scene_ = next;
-      session_.open(next);
+      session_.open(next, settings_.seed);
     } catch (const InputError& error) {
       say(error.what(), true);
     }

@@ -19,9 +19,11 @@
 #include "app/gui/interface.h"
 #include "app/gui/recorder.h"
 #include "app/gui/style.h"
+#include "app/setup.h"
 #include "render/context.h"
 #include "render/png.h"
 #include "sim/core/error.h"
+#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -248,14 +250,22 @@ class Loop {
 
 }  // namespace
 
-int gui_command(const std::string& scene) {
+int gui_command(const RunOptions& options) {
+  // What is wrong with the command line is said before a window opens.
+  RunOptions own_options;
+  own_options.scene = options.scene.empty() ? "pillars" : options.scene;
+  RunOptions changed = options;
+  changed.scene = own_options.scene;
+  const Scene scene = scene_from(changed), own = scene_from(own_options);
+  check_resolution(scene);
   Window window;
-  Session session;
+  Session session(options.threads);
   Interface::Settings settings;
   settings.assets = assets_folder();
   settings.scale = window.scale();
+  settings.seed = options.seed;
   Interface interface(session, settings);
-  interface.open(scene.empty() ? "pillars" : scene);
+  interface.open(changed.scene, scene, own);
   Loop(window, session, interface).go();
   return 0;
 }
