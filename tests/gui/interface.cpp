@@ -1,12 +1,16 @@
 // What a hand does with the window, without a display: every panel, slider, button and key.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <set>
 
 #include "app/gui/plot.h"
 #include "render/png.h"
 #include "sim/scene/reader.h"
+#include "sim/scene/resolution.h"
 #include "tests/gui/desk.h"
 #include "tests/io/temporary_folder.h"
 
@@ -285,5 +289,33 @@ TEST_CASE("places of the widgets", "[.places]") {
                              "viscosity.nu", "Energy.csv", "picture", "scene free_fall"}) {
     const auto box = desk.interface().place(widget);
     std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
+  }
+}
+
+// Not a test: how long a picture of the interface takes, and one of the water, while 20,000 particles run.
+TEST_CASE("time of a picture", "[.time]") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  const Scene own = read_scene(CURLEW_ASSETS_DIR "/scenes/dam_break.json");
+  desk.interface().open("dam_break", with_particles(own, 20000), own);
+  desk.settle();
+  for (const bool playing : {false, true}) {
+    desk.session.play(playing);
+    std::vector<double> interface, water;
+    for (int k = 0; k < 100; ++k) {
+      const auto version = desk.interface().version();
+      const auto begin = std::chrono::steady_clock::now();
+      desk.draw();
+      glFinish();
+      const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      (desk.interface().version() == version ? interface : water).push_back(ms);
+    }
+    desk.session.play(false);
+    const auto median = [](std::vector<double> v) {
+      std::sort(v.begin(), v.end());
+      return v.empty() ? 0.0 : v[v.size() / 2];
+    };
+    std::printf("%s: %.1f ms a picture of the interface (%zu), %.1f ms with the water anew (%zu)\n",
+                playing ? "playing" : "paused", median(interface), interface.size(), median(water), water.size());
   }
 }
