@@ -92,6 +92,16 @@ wait_for 'out/dam_break_2d/picture_000.png' >/dev/null
 click Window
 wait_for 'out/dam_break_2d/window_000.png' >/dev/null
 
+# A film.
+if command -v ffprobe >/dev/null; then
+  click Film
+  xdotool key space sleep 3 key space sleep 0.5
+  click Film
+  film=$(wait_for 'out/dam_break_2d/film_000.mp4')
+  frames=$(ffprobe -v error -count_packets -show_entries stream=nb_read_packets -of csv=p=0 "$film" | tr -d ,)
+  [[ $frames -gt 5 ]] || fail "the film has $frames frames"
+fi
+
 # From the start, and to the same bits as without a window.
 click reset
 sleep 1
