@@ -111,7 +111,8 @@ struct Sampler {
     const double tx = dx / straight, ty = dy / straight, r = c.radius;
     const int n = std::max(1, static_cast<int>(std::round(2 * (straight + bend) / d)));
     const auto half = [&](double s, Vec3d start, double side) {  // along one side, then around its end
-      const double angle = std::max(0.0, s - straight) / r, forward = std::min(s, straight) + r * std::sin(angle);
+      const double angle = r > 0 ? std::max(0.0, s - straight) / r : 0,
+                   forward = std::min(s, straight) + r * std::sin(angle);
       const double out = r * std::cos(angle);
       points.push_back({start.x + side * (forward * tx + out * ty), start.y + side * (forward * ty - out * tx), 0});
     };

@@ -183,9 +183,9 @@ void advect(World& world) {
       const float low = static_cast<float>(domain.min[axis]), period = cells.period[axis];
       x[axis] -= period * std::floor((x[axis] - low) / period);
     }
-    const bool at_body = world.obstacles->hold(x, f.velocity[i], before);
     const bool at_wall = world.walls.hold(x, f.velocity[i]);
-    if (at_body && at_wall && world.obstacles->contains(x)) x = before;
+    const bool at_body = world.obstacles->hold(x, f.velocity[i], before);
+    if (at_body && world.walls.hold(x, f.velocity[i]) && world.obstacles->contains(x)) x = before;
     return at_body || at_wall ? 1.0 : 0.0;
   });
   world.report.wall_contacts = static_cast<std::int64_t>(held);

@@ -1,9 +1,95 @@
 #include "sim/sph/obstacles.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace curlew {
+namespace {
+
+// A body that stands on the floor goes on below it here: a face in the plane of a wall is no way out for a particle
+// that is held at that plane, and none that leads anywhere. Meshes stay as they are.
+struct Extension {
+  const Domain& domain;
+  int dimension;
+  double by, slack;  // m
+
+  // How far to go on below (or above) along an axis where the shape ends at `low` (or `high`).
+  double below(double low, int axis) const {
+    return axis < dimension && std::abs(low - domain.min[axis]) < slack ? by : 0;
+  }
+  double above(double high, int axis) const {
+    return axis < dimension && std::abs(high - domain.max[axis]) < slack ? by : 0;
+  }
+
+  void operator()(Box& box) const {
+    for (int axis = 0; axis < dimension; ++axis) {
+      box.min[axis] -= below(box.min[axis], axis);
+      box.max[axis] += above(box.max[axis], axis);
+    }
+  }
+
+  void operator()(Cylinder& cylinder) const {
+    if (dimension == 2) return;
+    const Vec3d way = (1 / length(cylinder.to - cylinder.from)) * (cylinder.to - cylinder.from);
+    const auto beyond = [&](Vec3d end) {
+      double most = 0;
+      for (int axis = 0; axis < dimension; ++axis) {
+        if (std::abs(way[axis]) < 0.7) continue;  // the end's face does not lie in that wall
+        most = std::max({most, below(end[axis], axis), above(end[axis], axis)});
+      }
+      return most;
+    };
+    const double first = beyond(cylinder.from), last = beyond(cylinder.to);
+    cylinder.from = cylinder.from - first * way;
+    cylinder.to = cylinder.to + last * way;
+  }
+
+  // Repeats the outermost heights beyond the sides.
+  void operator()(Heightfield& field) const {
+    field.min.y -= below(field.min.y, 1);
+    const auto widen = [&](double& min, double& max, int axis, int lines, auto&& repeat) {
+      if (lines < 2) return;
+      const double step = (max - min) / (lines - 1);
+      const auto number = [&](double wanted) { return static_cast<int>(std::ceil(wanted / step)); };
+      const int before = number(below(min, axis)), after = number(above(max, axis));
+      repeat(before, after);
+      min -= before * step;
+      max += after * step;
+    };
+    widen(field.min.x, field.max.x, 0, field.columns, [&](int before, int after) {
+      std::vector<double> heights;
+      for (int row = 0; row < field.rows; ++row) {
+        const auto at = field.heights.begin() + static_cast<std::ptrdiff_t>(row) * field.columns;
+        heights.insert(heights.end(), static_cast<std::size_t>(before), *at);
+        heights.insert(heights.end(), at, at + field.columns);
+        heights.insert(heights.end(), static_cast<std::size_t>(after), *(at + field.columns - 1));
+      }
+      field.heights = std::move(heights);
+      field.columns += before + after;
+    });
+    if (dimension == 2) return;
+    widen(field.min.z, field.max.z, 2, field.rows, [&](int before, int after) {
+      const auto columns = static_cast<std::ptrdiff_t>(field.columns);
+      const std::vector<double> first(field.heights.begin(), field.heights.begin() + columns),
+          last(field.heights.end() - columns, field.heights.end());
+      for (int k = 0; k < before; ++k) field.heights.insert(field.heights.begin(), first.begin(), first.end());
+      for (int k = 0; k < after; ++k) field.heights.insert(field.heights.end(), last.begin(), last.end());
+      field.rows += before + after;
+    });
+  }
+
+  template <class Other>
+  void operator()(Other&) const {}
+};
+
+}  // namespace
 
 Obstacles::Obstacles(const Scene& scene) : dimension_(scene.dimension), spacing_(scene.spacing()) {
-  for (const Body& body : scene.bodies) shapes_.push_back(body.shape);
+  const Extension extension{scene.domain, dimension_, 4 * spacing_, 1e-3 * spacing_};
+  for (const Body& body : scene.bodies) {
+    shapes_.push_back(body.shape);
+    std::visit(extension, shapes_.back());
+  }
   for (const Shape& shape : shapes_) {
     obstacles_.push_back({bounds(shape, dimension_, scene.domain), ShapeProbe(shape, dimension_)});
   }

@@ -1,8 +1,10 @@
 // Bodies hold water out: no particle ever enters one.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <memory>
 
+#include "sim/scene/heightfield.h"
 #include "sim/scene/mesh.h"
 #include "tests/scenes/scene_test.h"
 
@@ -108,4 +110,45 @@ TEST_CASE("what meets a body alone stops at its surface", "[scene]") {
   CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
   CHECK(lowest(run.world) >= 0.4);
   CHECK(positions_by_id(run.world)[0].x > 0.55);  // it slides on
+}
+
+TEST_CASE("a body that stands on the floor stops a drop that slides on it", "[scene]") {
+  Scene scene = empty_box({2, 1, 1}, 20);
+  scene.fluid.push_back(moving(Box{{0.3, 0, 0.45}, {0.35, 0.05, 0.5}}, {2, 0, 0}));
+  const Heightfield beach = [&] {
+    Heightfield field;
+    field.formula = "max(0, 0.6*(x - 0.9))";
+    field.min = {0, 0, 0};
+    field.max = {2, 1, 1};
+    load_heights(field, ".", 3, "beach");
+    return field;
+  }();
+  const auto [name, shape, farthest] = GENERATE_COPY(table<std::string, Shape, double>({
+      {"box", Box{{1, 0, 0}, {1.2, 0.5, 1}}, 1.0},
+      {"pillar", Cylinder{{1, 0, 0.48}, {1, 0.5, 0.48}, 0.2}, 0.81},
+      {"beach", beach, 2},
+  }));
+  CAPTURE(name);
+  scene.bodies.push_back({name, shape, WallKind::slip});
+  Run run(scene);
+  CHECK(run.world.count == 1);
+  for (int k = 0; k < 200; ++k) {
+    run.take_steps(1);
+    const Vec3d x = positions_by_id(run.world)[0];
+    REQUIRE(x.x <= farthest + 1e-3);
+    if (name == "beach" && x.x > 1) REQUIRE(x.y >= 0.6 * (x.x - 0.9) - 1e-3);
+  }
+  CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
+}
+
+TEST_CASE("a thin strip in 2D is sampled where it is", "[scene]") {
+  Scene scene = empty_box({1, 1, 0}, 20);
+  scene.dimension = 2;
+  scene.fluid.push_back({Box{{0, 0.6, 0}, {1, 0.9, 0}}, {}});
+  scene.bodies.push_back({"strip", Cylinder{{0.2, 0.3, 0}, {0.8, 0.35, 0}, 0.02}, WallKind::slip});
+  Run run(scene);
+  CHECK(run.world.bodies.count() >= 10);
+  for (const Vec3& x : run.world.bodies.position()) CHECK(std::abs(double{x.y} - 0.325) < 0.05);
+  run.simulate(0.5);
+  CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
 }
