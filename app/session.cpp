@@ -60,19 +60,23 @@ void Session::post(std::function<void()> task) {
 }
 
 void Session::open(Scene scene, std::uint64_t seed) {
+  std::int64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
-    cancelled_ = false;
+    number = ++newest_;
     status_.loading = true;
     status_.loading_what = scene.name;
     loading_since_ = now();
   }
-  post([this, scene = std::move(scene), seed] { lay_out(scene, seed); });
+  post([this, scene = std::move(scene), seed, number] { lay_out(scene, seed, number); });
 }
 
 void Session::cancel() {
   const std::lock_guard lock(mutex_);
-  if (status_.loading) cancelled_ = true;
+  if (!status_.loading) return;
+  ++newest_;
+  status_.loading = false;
+  messages_.push_back({"Cancelled", false});
 }
 
 void Session::play(bool on) {
@@ -129,7 +133,7 @@ void Session::save_checkpoint(const std::string& file) {
       if (!loaded_) return;
     }
     curlew::save_checkpoint(file, world_);
-    say("Saved " + file + "; go on with: curlew run --resume " + file);
+    say("Saved " + file + "; go on with: curlew run --resume " + file, false);
   });
 }
 
@@ -177,9 +181,9 @@ std::string Session::state_hash() {
   return text.get_future().get();
 }
 
-void Session::say(std::string message) {
+void Session::say(std::string message, bool error) {
   const std::lock_guard lock(mutex_);
-  messages_.push_back(std::move(message));
+  messages_.push_back({std::move(message), error});
 }
 
 void Session::work() {
@@ -201,53 +205,58 @@ void Session::work() {
       } else {
         advance();
       }
-    } catch (const std::exception& error) {  // bad input, a full disk, no memory: the run that is there stays
-      say(error.what());
+    } catch (const std::bad_alloc&) {
+      play(false);
+      say("Memory ran out; choose fewer particles", true);
+    } catch (const std::exception& error) {  // bad input, a full disk: the run that is there stays
+      if (!task) play(false);
+      say(error.what(), true);
     }
   }
 }
 
-void Session::lay_out(Scene scene, std::uint64_t seed) {
-  std::optional<World> world;
+void Session::lay_out(const Scene& scene, std::uint64_t seed, std::int64_t number) {
+  const auto newest = [&] {
+    const std::lock_guard lock(mutex_);
+    return number == newest_;
+  };
+  if (!newest()) return;
   std::string failure;
   try {
-    world = make_world(scene, seed);
+    World world = make_world(scene, seed);
+    if (!newest()) return;
+    Plan plan = make_plan(world);
+    prepare(world, plan);
+    return adopt(std::move(world), std::move(plan), number);
   } catch (const std::bad_alloc&) {
     failure = scene.name + " does not fit into memory; choose fewer particles";
   } catch (const std::exception& error) {
     failure = error.what();
   }
-  {
-    const std::lock_guard lock(mutex_);
-    status_.loading = false;
-    if (cancelled_) {
-      messages_.push_back("Cancelled; the run that was there goes on");
-      return;
-    }
-    if (!failure.empty()) {
-      messages_.push_back(failure);
-      return;
-    }
-    playing_ = diverged_ = false;
-  }
-  adopt(std::move(*world));
+  const std::lock_guard lock(mutex_);
+  if (number != newest_) return;
+  status_.loading = false;
+  messages_.push_back({failure, true});
 }
 
-void Session::adopt(World world) {
-  world_ = std::move(world);
-  geometry_ = make_geometry(world_.scene);
-  pace_.clear();
-  plan_ = {};
-  plan();
+void Session::adopt(World world, Plan plan, std::int64_t number) {
   {
     const std::lock_guard lock(mutex_);
+    if (number != newest_) return;
+    playing_ = diverged_ = false;
     loaded_ = true;
+    status_.loading = false;
     ++status_.scene_number;
     samples_.clear();
     recorded_.clear();
-    parameters_ = world_.scene.parameters;
+    parameters_ = world.scene.parameters;
   }
+  world_ = std::move(world);
+  plan_ = std::move(plan);
+  geometry_ = make_geometry(world_.scene);
+  pace_.clear();
   next_recorded_ = 0;
+  this->plan();
   publish();
 }
 
@@ -280,7 +289,7 @@ void Session::advance() {
     const std::lock_guard lock(mutex_);
     playing_ = false;
     diverged_ = true;
-    messages_.push_back(error.what());
+    messages_.push_back({error.what(), true});
     return;
   }
   const double end = now();

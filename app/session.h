@@ -47,6 +47,12 @@ struct SessionStatus {
   bool recording = false;
 };
 
+// One sentence for the user.
+struct Message {
+  std::string text;
+  bool error = false;
+};
+
 class Session {
  public:
   // threads: for the solver; 0 takes all cores.
@@ -55,8 +61,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // Lays out a scene, paused. The run that is there stays until the new one stands, and for good where that fails or
-  // cancel() comes first.
+  // Lays out a scene, paused. The run that is there stays until the new one stands, and for good where that fails, or
+  // where cancel() or another open() comes first.
   void open(Scene scene, std::uint64_t seed = 0);
   void cancel();
 
@@ -76,8 +82,8 @@ class Session {
     std::shared_ptr<const Frame> frame;  // the newest, or null where it was taken already
     std::vector<Sample> samples;         // of the steps since the last update
     std::vector<std::shared_ptr<const Frame>> recorded;
-    std::vector<std::string> messages;  // errors and news, each one sentence
-    Parameters parameters;              // that the solver reads
+    std::vector<Message> messages;  // errors and news, each one sentence
+    Parameters parameters;          // that the solver reads
   };
   // Takes what is new. Never waits for a step.
   Update poll();
@@ -90,13 +96,13 @@ class Session {
  private:
   void post(std::function<void()> task);
   void work();
-  void lay_out(Scene scene, std::uint64_t seed);
-  void adopt(World world);
+  void lay_out(const Scene& scene, std::uint64_t seed, std::int64_t number);
+  void adopt(World world, Plan plan, std::int64_t number);
   void plan();
   void advance();
   void publish();
   void keep_recorded_frames();
-  void say(std::string message);
+  void say(std::string message, bool error);
 
   // Touched by the solver's thread alone.
   World world_;
@@ -114,14 +120,15 @@ class Session {
   std::mutex mutex_;
   std::condition_variable wake_, room_;
   std::deque<std::function<void()>> tasks_;
-  bool closing_ = false, playing_ = false, loaded_ = false, diverged_ = false, cancelled_ = false;
+  bool closing_ = false, playing_ = false, loaded_ = false, diverged_ = false;
+  std::int64_t newest_ = 0;  // layout that was asked for; older ones are dropped
   bool frame_taken_ = true;
   double loading_since_ = 0;
   SessionStatus status_;
   std::shared_ptr<const Frame> frame_;
   std::vector<Sample> samples_;
   std::vector<std::shared_ptr<const Frame>> recorded_;
-  std::vector<std::string> messages_;
+  std::vector<Message> messages_;
   Parameters parameters_;
 
   std::thread thread_;  // last: it uses all of the above

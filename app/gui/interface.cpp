@@ -50,36 +50,54 @@ void Interface::open(const std::string& name) {
 }
 
 void Interface::open(const std::string& name, const Scene& scene, const Scene& own) {
-  scene_name_ = name;
-  scene_ = scene;
-  own_ = own.parameters;
-  own_radius_ = own.particle_radius;
+  pending_ = Pending{name, scene, own, true};
+  session_.open(scene, settings_.seed);
+}
+
+void Interface::lay_out_again(const Scene& scene) {
+  Pending next{scene_name_, scene, scene, false};
+  next.own.parameters = own_;
+  next.own.particle_radius = own_radius_;
+  pending_ = next;
+  session_.open(scene, settings_.seed);
+}
+
+// The scene that was asked for stands: from here on the widgets speak of it.
+void Interface::install(const Pending& next) {
+  held_ = nullptr;
+  scene_ = next.scene;
+  own_ = next.own.parameters;
+  own_radius_ = next.own.particle_radius;
+  samples_.clear();
+  paused_samples_.clear();
+  if (!own_range_) range_.reset();
+  if (!next.fresh) return;
+  if (next.name != scene_name_ && next.name != file_) file_[0] = 0;
+  scene_name_ = next.name;
   past_.clear();
   future_.clear();
   view_.look = scene_.look;
-  dark_ = scene_.look.background == "dark" || dark_;
-  if (dark_) view_.look.background = "dark";
+  dark_ = dark_ || scene_.look.background == "dark";
+  view_.look.background = dark_ ? "dark" : "light";
+  requests_.restyle = true;
   range_ = scene_.look.range;
   own_range_ = range_.has_value();
   orbit_is_new_ = true;
+  latest_ = nullptr;  // it shows the scene before
   session_.colour_by(scene_.look.colour_by);
-  session_.open(scene_, settings_.seed);
 }
 
 void Interface::take(Session::Update update) {
-  if (update.status.scene_number != scene_number_) {
-    scene_number_ = update.status.scene_number;
-    samples_.clear();
-    paused_samples_.clear();
-    wanted_particles_ = static_cast<int>(update.status.particles);
-    if (!own_range_) range_ = scene_.look.range;
-  }
   status_ = std::move(update.status);
+  if (status_.scene_number != scene_number_) {
+    scene_number_ = status_.scene_number;
+    laid_out_particles_ = wanted_particles_ = static_cast<int>(status_.particles);
+    if (pending_) install(*pending_);
+  }
+  if (!status_.loading) pending_.reset();
   if (samples_.size() > most_samples) samples_.erase(samples_.begin(), samples_.begin() + most_samples / 2);
   samples_.insert(samples_.end(), update.samples.begin(), update.samples.end());
-  for (const std::string& message : update.messages) {
-    say(message, status_.state == RunState::diverged || message.find("cannot") != std::string::npos);
-  }
+  for (const Message& message : update.messages) say(message.text, message.error);
   if (update.frame) {
     latest_ = std::move(update.frame);
     update_view();
@@ -94,19 +112,22 @@ void Interface::say(const std::string& message, bool error) {
 
 Interface::Requests Interface::take_requests() { return std::exchange(requests_, {}); }
 
-std::filesystem::path Interface::new_file(const std::string& kind, const std::string& extension) const {
+std::filesystem::path Interface::new_file(const std::string& kind, const std::string& extension) {
   const std::filesystem::path folder = settings_.out / std::filesystem::path(scene_.file).stem();
   for (int n = 0;; ++n) {
     char name[32];
     std::snprintf(name, sizeof name, "_%03d.", n);
     const auto path = folder / (kind + name + extension);
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return path;
+    // A name that was handed out counts as taken: its file may be written later.
+    if (!std::filesystem::exists(path, ignored) && given_.insert(path).second) return path;
   }
 }
 
 std::string Interface::command_line() const {
-  std::string line = "curlew run " + scene_name_;
+  const bool plain = scene_name_.find_first_of(" '\"\\$&;()") == std::string::npos;
+  std::string line = "curlew run " + (plain ? scene_name_ : "\"" + scene_name_ + "\"");
+  if (settings_.seed != 0) line += " --seed " + std::to_string(settings_.seed);
   if (scene_.particle_radius != own_radius_) line += " --radius " + number_text(scene_.particle_radius);
   for (const ParameterRow& row : parameter_table()) {
     if (row.get(scene_.parameters) != row.get(own_)) {
@@ -151,28 +172,29 @@ void Interface::update_view() {
   view_.flat_zoom = orbit_.flat_zoom();
   view_.particle_scale.reset();
   if (particle_scale_ != 1) view_.particle_scale = double{particle_scale_};
-  if (!own_range_ && !latest_->value.empty()) {
+  if (!own_range_ && !latest_->value.empty() && latest_->colour.name == view_.look.colour_by) {
     const auto own = colour_range(*latest_);
     range_ = range_ ? united(*range_, own) : own;
   }
   view_.look.range = range_;
-  if (!cut_) {
-    shown_ = latest_;
-    return;
-  }
-  const Domain& domain = latest_->geometry->domain;
-  const int axis = std::min(cut_axis_, latest_->geometry->dimension - 1);
+  shown_ = cut_open(latest_);
+}
+
+std::shared_ptr<const Frame> Interface::cut_open(const std::shared_ptr<const Frame>& frame) const {
+  if (!cut_) return frame;
+  const Domain& domain = frame->geometry->domain;
+  const int axis = std::min(cut_axis_, frame->geometry->dimension - 1);
   const double low = domain.min[axis], high = domain.max[axis];
   const auto plane = static_cast<float>(low + double{cut_at_} * (high - low));
-  auto cut = std::make_shared<Frame>(*latest_);
+  auto cut = std::make_shared<Frame>(*frame);
   cut->position.clear();
   cut->value.clear();
-  for (std::size_t i = 0; i < latest_->position.size(); ++i) {
-    if ((latest_->position[i][axis] > plane) != cut_low_) continue;
-    cut->position.push_back(latest_->position[i]);
-    if (!latest_->value.empty()) cut->value.push_back(latest_->value[i]);
+  for (std::size_t i = 0; i < frame->position.size(); ++i) {
+    if ((frame->position[i][axis] > plane) != cut_low_) continue;
+    cut->position.push_back(frame->position[i]);
+    if (!frame->value.empty()) cut->value.push_back(frame->value[i]);
   }
-  shown_ = cut;
+  return cut;
 }
 
 void Interface::draw(unsigned picture) {
@@ -248,7 +270,7 @@ void Interface::draw_toolbar(float height) {
   }
   if (same_size("Step", "step", "One time step (S)", there && !playing)) session_.step_once();
   if (same_size("Reset", "reset", "From the start, with the parameters as they are set (R)", there))
-    session_.open(scene_, settings_.seed);
+    lay_out_again(scene_);
   ImGui::SameLine(0, 2 * ImGui::GetFontSize());
   if (button("Picture", "Save the picture of the water (P)", there)) requests_.screenshot = true;
   ImGui::SameLine();
@@ -339,7 +361,7 @@ void Interface::handle_key(const Key& pressed) {
   const bool playing = status_.state == RunState::playing;
   if (key == ' ') session_.play(!playing);
   if (key == 'S' && !playing) session_.step_once();
-  if (key == 'R') session_.open(scene_, settings_.seed);
+  if (key == 'R') lay_out_again(scene_);
   if (key == 'P') {
     requests_.screenshot = true;
     requests_.with_interface = pressed.shift;
@@ -387,7 +409,8 @@ void Interface::draw_status(float height) {
         ImGui::SameLine();
         if (button("Go on with half the time step", "Halves time.cfl, or time.fixed_step where that is set")) {
           Parameters next = scene_.parameters;
-          (next.time.fixed_step > 0 ? next.time.fixed_step : next.time.cfl) /= 2;
+          const ParameterRow& row = parameter_row(next.time.fixed_step > 0 ? "time.fixed_step" : "time.cfl");
+          row.set(next, std::max(row.min, row.get(next) / 2));
           change(next);
           message_.clear();
           session_.play(true);

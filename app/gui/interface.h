@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,7 +62,9 @@ class Interface {
   bool dark() const { return dark_; }
   double scale() const { return scale_; }
   // out/NAME/KIND_000.EXTENSION, the first number that is free.
-  std::filesystem::path new_file(const std::string& kind, const std::string& extension) const;
+  std::filesystem::path new_file(const std::string& kind, const std::string& extension);
+  // A frame as the picture shows it: without what the cut takes away.
+  std::shared_ptr<const Frame> cut_open(const std::shared_ptr<const Frame>& frame) const;
 
   const Scene& scene() const { return scene_; }
   const std::vector<Sample>& samples() const { return samples_; }
@@ -77,6 +80,15 @@ class Interface {
     int key;
     bool ctrl, shift;
   };
+
+  // A scene that was asked for and does not stand yet; `fresh` where it is another one.
+  struct Pending {
+    std::string name;
+    Scene scene, own;
+    bool fresh;
+  };
+  void install(const Pending& next);
+  void lay_out_again(const Scene& scene);
 
   // interface.cpp: layout, tool bar, picture, shortcuts
   void draw_toolbar(float height);
@@ -112,19 +124,22 @@ class Interface {
   Settings settings_;
   std::vector<SceneInfo> bundled_;
 
-  Scene scene_;             // as it will be laid out next: with the parameters as they are set
-  Parameters own_;          // as the scene's file has them
-  double own_radius_ = 0;   // the same
-  std::string scene_name_;  // as one gives it on the command line
-  Parameters edited_;       // while a slider is held
+  Scene scene_;                         // as it will be laid out next: with the parameters as they are set
+  Parameters own_;                      // as the scene's file has them
+  double own_radius_ = 0;               // the same
+  std::string scene_name_;              // as one gives it on the command line
+  const ParameterRow* held_ = nullptr;  // whose widget a hand holds, and what it stands at
+  double held_value_ = 0;
   std::vector<Parameters> past_, future_;
-  bool editing_ = false;
   char file_[256] = "";
-  int wanted_particles_ = 0;
+  int wanted_particles_ = 0, laid_out_particles_ = 0;
+  std::string saved_file_;  // the last that Save wrote
+  std::set<std::filesystem::path> given_;
   std::string message_;
   bool message_is_error_ = false;
   double message_time_ = 0;
 
+  std::optional<Pending> pending_;
   SessionStatus status_;
   std::int64_t scene_number_ = 0;
   std::vector<Sample> samples_;

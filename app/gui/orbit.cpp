@@ -8,7 +8,7 @@ namespace curlew {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double steepest = 0.4999 * pi;
+constexpr double steepest = 0.495 * pi;  // nearer to the pole there is no up
 constexpr double zoom_a_notch = 1.12;
 
 Vec3d centre_of(const Domain& domain) { return 0.5 * (domain.min + domain.max); }
@@ -79,7 +79,7 @@ void Orbit::fit(const Domain& domain, double aspect) {
   // A sphere around the domain touches the nearer pair of the picture's sides.
   const double half = field_of_view_ / 360 * pi, narrow = std::min(half, std::atan(std::tan(half) * aspect));
   target_ = centre;
-  distance_ = 0.42 * length(domain.max - domain.min) / std::sin(narrow);
+  distance_ = 0.5 * length(domain.max - domain.min) / std::sin(narrow);
 }
 
 void Orbit::look_from(std::string_view side, const Domain& domain, double aspect) {

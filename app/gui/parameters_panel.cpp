@@ -90,12 +90,12 @@ bool edit(const ParameterRow& row, double& value) {
 
 void Interface::draw_parameter(const ParameterRow& row) {
   const double own = row.get(own_);
-  double value = row.get(editing_ ? edited_ : scene_.parameters);
+  double value = held_ == &row ? held_value_ : row.get(scene_.parameters);
   const bool changed_from_own = row.get(scene_.parameters) != own;
   ImGui::PushID(row.key.c_str());
   ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
   const bool touched = edit(row, value);
-  const bool released = ImGui::IsItemDeactivatedAfterEdit();
+  const bool released = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
   const bool instant = row.type == ParameterRow::Type::flag || row.type == ParameterRow::Type::choice;
   mark(row.key);
   tool_tip(row);
@@ -114,19 +114,23 @@ void Interface::draw_parameter(const ParameterRow& row) {
       row.set(next, own);
       change(next);
     } else if (touched || released) {
-      if (!editing_) edited_ = scene_.parameters;
-      set_parameter(edited_, row, value, "The slider");
-      next = edited_;
+      held_ = &row;
+      held_value_ = value;
       if (released || instant) {
-        editing_ = false;
+        held_ = nullptr;
+        set_parameter(next, row, value, "The slider");
         change(next);
-      } else {  // while the slider moves the water follows, and undo waits for its end
-        editing_ = true;
-        if (row.live) session_.set_parameters(next);
+      } else if (row.live && !ImGui::GetIO().WantTextInput) {
+        // While the slider moves the water follows, and undo waits for its end. A number that is being typed is not
+        // one yet.
+        set_parameter(next, row, value, "The slider");
+        session_.set_parameters(next);
       }
+    } else if (held_ == &row && !active) {
+      held_ = nullptr;  // let go without a change
     }
   } catch (const InputError& error) {
-    editing_ = false;
+    held_ = nullptr;
     session_.set_parameters(scene_.parameters);
     say(error.what(), true);
   }
@@ -191,11 +195,9 @@ void Interface::draw_resolution() {
   if (button("Apply", "Lay out the scene with this many particles and with the parameters that need it")) {
     try {
       if (wanted_particles_ < 1) throw InputError("the number of particles has to be at least 1");
-      const bool same = wanted_particles_ == static_cast<int>(status_.particles);
-      Scene next = same ? scene_ : with_particles(scene_, wanted_particles_);
-      scene_ = next;
-      session_.open(next, settings_.seed);
-    } catch (const InputError& error) {
+      const bool same = wanted_particles_ == laid_out_particles_;
+      lay_out_again(same ? scene_ : with_particles(scene_, wanted_particles_));
+    } catch (const std::exception& error) {
       say(error.what(), true);
     }
   }
@@ -204,13 +206,17 @@ void Interface::draw_resolution() {
 void Interface::save_scene() {
   try {
     const std::string path = file_[0] == 0 ? new_file("scene", "json").string() : std::string(file_);
-    std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
+    if (path != saved_file_ && std::filesystem::exists(path)) {
+      throw InputError(path + " is there already; type another name, or none for a new one");
+    }
     Scene saved = scene_;
     saved.camera = view_.camera;
     saved.look = view_.look;
+    if (!own_range_) saved.look.range.reset();
     AtomicFile file(path);
     file.write(scene_json(saved));
     file.commit();
+    saved_file_ = path;
     std::snprintf(file_, sizeof file_, "%s", path.c_str());
     say("Saved " + path + "; run it with: curlew run " + path);
   } catch (const std::exception& error) {

@@ -156,7 +156,7 @@ void draw_plot(const Plot& plot, std::span<const Sample> samples, float width, f
   const std::string title = plot.title + (plot.unit.empty() ? "" : " (" + plot.unit + ")");
   list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), title.c_str());
   draw_legend(list, plot, {corner.x, corner.y + 1.2f * line}, width);
-  ImGui::InvisibleButton(plot.title.c_str(), {width, height});
+  ImGui::InvisibleButton(plot.title.c_str(), {std::max(1.0f, width), std::max(1.0f, height)});
   const bool hovered = ImGui::IsItemHovered();
   const auto [y0, y1] = value_range(plot, samples);
   const double t0 = samples.empty() ? 0 : samples.front().time, t1 = samples.empty() ? 1 : samples.back().time;

@@ -17,10 +17,17 @@ void Recorder::add(const Frame& frame, const ViewSettings& view) {
   ++frames_;
 }
 
-void Recorder::finish() {
+bool Recorder::finish() {
   const auto video = std::move(video_);
   renderer_.reset();
-  if (frames_ > 0) video->finish();
+  if (frames_ == 0) return false;
+  video->finish();
+  return true;
+}
+
+void Recorder::abandon() {
+  video_.reset();
+  renderer_.reset();
 }
 
 }  // namespace curlew

@@ -19,8 +19,10 @@ class Recorder {
   // Throws InputError where there is no ffmpeg or the file cannot be written.
   void start(const std::filesystem::path& file, int width, int height);
   void add(const Frame& frame, const ViewSettings& view);
-  // Ends the film; without frames there is none.
-  void finish();
+  // Ends the film; false where it has no frame, and there is no file.
+  bool finish();
+  // Gives it up.
+  void abandon();
 
  private:
   std::filesystem::path file_;

@@ -48,7 +48,10 @@ void Interface::draw_view() {
     ImGui::SetNextItemWidth(wide);
     changed |= choose("map", view_.look.colour_map, colour_map_names());
     mark("map");
-    changed |= ImGui::Checkbox("fixed range", &own_range_);
+    if (ImGui::Checkbox("fixed range", &own_range_)) {
+      if (!own_range_) range_.reset();
+      changed = true;
+    }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Otherwise the scale spans what the run has shown so far.");
     mark("fixed range");
     if (own_range_ && range_) {

@@ -70,6 +70,7 @@ class Window {
       throw GraphicsError("no window with OpenGL 4.5 can be opened: " + said +
                           "; run without one, for example: curlew run pillars --frames");
     }
+    glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(0);
     if (gladLoadGL(glfwGetProcAddress) == 0) throw GraphicsError("the window's OpenGL cannot be loaded");
@@ -139,9 +140,10 @@ class Loop {
     const bool touched = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
                          ImGui::IsAnyItemActive() || io.WantTextInput;
     if (touched) last_input_ = seconds();
-    const double interval = seconds() - last_input_ < busy_after_input ? busy_interval : idle_interval;
+    const bool busy = recorder_.running() || seconds() - last_input_ < busy_after_input;
+    const double interval = busy ? busy_interval : idle_interval;
     const double left = interval - (seconds() - begin);
-    if (interval == busy_interval) {
+    if (busy) {
       if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
       glfwPollEvents();
     } else {
@@ -155,11 +157,20 @@ class Loop {
     interface_.take(std::move(update));
     if (!recorder_.running()) return;
     try {
-      for (const auto& frame : recorded) recorder_.add(*frame, interface_.view());
+      for (const auto& frame : recorded) recorder_.add(*interface_.cut_open(frame), interface_.view());
+      if (interface_.status().scene_number != filmed_scene_) end_film();
     } catch (const std::exception& error) {
       session_.record(0);
+      recorder_.abandon();
       interface_.say(error.what(), true);
     }
+  }
+
+  void end_film() {
+    session_.record(0);
+    const bool wrote = recorder_.finish();
+    interface_.say(wrote ? "Wrote " + recorder_.file().string()
+                         : "The film ended before its first frame: nothing written");
   }
 
   // The newest state at most so often that drawing takes its share and no more; at once where the view was moved or the
@@ -212,18 +223,15 @@ class Loop {
     }
     try {
       if (asked.screenshot) save_picture(asked.with_interface);
-      if (asked.start_recording) {
+      if (asked.start_recording && !recorder_.running()) {
+        filmed_scene_ = interface_.status().scene_number;
         const auto [width, height] = interface_.picture_size();
         recorder_.start(interface_.new_file("film", "mp4"), width, height);
         session_.record(Recorder::fps);
         interface_.say("Filming; press End film to finish");
       }
       if (asked.stop_recording && recorder_.running()) {
-        session_.record(0);
-        session_.finish_tasks();
-        poll();
-        recorder_.finish();
-        interface_.say("Wrote " + recorder_.file().string());
+        end_film();
       }
     } catch (const std::exception& error) {
       interface_.say(error.what(), true);
@@ -243,6 +251,7 @@ class Loop {
   Interface& interface_;
   Renderer renderer_;
   Recorder recorder_;
+  std::int64_t filmed_scene_ = 0;
   std::uint64_t drawn_version_ = 0;
   double drawn_at_ = 0, draw_seconds_ = 0, last_input_ = 0;
   bool have_picture_ = false;

@@ -138,7 +138,7 @@ TEST_CASE("a run that diverges is paused, says why, and keeps the state before")
   session.play(true);
   const auto update = poll_until(session, [](const auto& u) { return u.status.state == RunState::diverged; });
   REQUIRE(update.messages.size() == 1);
-  CHECK(update.messages[0].starts_with("the simulation diverged at step "));
+  CHECK(update.messages[0].text.starts_with("the simulation diverged at step "));
   Parameters gentler = scene.parameters;
   gentler.time.fixed_step = 1e-3;
   session.set_parameters(gentler);
@@ -159,7 +159,7 @@ TEST_CASE("a scene that cannot be laid out leaves the run that is there") {
   open(session, empty);
   const auto update = session.poll();
   REQUIRE(update.messages.size() == 1);
-  CHECK(update.messages[0].find("holds no particle") != std::string::npos);
+  CHECK(update.messages[0].text.find("holds no particle") != std::string::npos);
   CHECK(session.state_hash() == hash);
 }
 
@@ -175,6 +175,25 @@ TEST_CASE("laying out can be cancelled") {
   CHECK(!update.status.loading);
   CHECK(update.status.particles < 600);
   CHECK(session.state_hash() == hash);
+}
+
+TEST_CASE("of two layouts in a row the newest counts, and a cancelled one never comes") {
+  Session session;
+  open(session, small_scene(500));
+  session.open(small_scene(60000));
+  session.open(small_scene(1000));
+  session.finish_tasks();
+  auto update = session.poll();
+  CHECK(update.status.particles < 1500);
+  CHECK(update.status.scene_number == 2);
+  session.open(small_scene(60000));
+  session.cancel();
+  CHECK(!session.poll().status.loading);
+  session.open(small_scene(500));
+  session.finish_tasks();
+  update = session.poll();
+  CHECK(update.status.particles < 700);
+  CHECK(update.status.scene_number == 3);
 }
 
 TEST_CASE("a recording has a frame for every 1/fps, however fast it is taken") {
@@ -211,7 +230,7 @@ TEST_CASE("a checkpoint of a session holds its state, and a full disk is said") 
   session.finish_tasks();
   const auto update = session.poll();
   REQUIRE(update.messages.size() == 1);
-  CHECK(update.messages[0].find("/proc/nowhere/a.curlew") != std::string::npos);
+  CHECK(update.messages[0].text.find("/proc/nowhere/a.curlew") != std::string::npos);
 }
 
 TEST_CASE("a session can be closed at any moment") {
