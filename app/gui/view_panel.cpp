@@ -12,8 +12,8 @@ namespace curlew {
 namespace {
 
 // A combo over names; true where another was chosen.
-template <class Names>
-bool choose(const char* label, std::string& chosen, const Names& names) {
+template <class Names, class Mark>
+bool choose(const char* label, std::string& chosen, const Names& names, const Mark& mark) {
   bool changed = false;
   if (ImGui::BeginCombo(label, chosen.c_str())) {
     for (const auto& name : names) {
@@ -21,6 +21,7 @@ bool choose(const char* label, std::string& chosen, const Names& names) {
         chosen = name;
         changed = true;
       }
+      mark(std::string(label) + " " + std::string(name));
     }
     ImGui::EndCombo();
   }
@@ -32,13 +33,14 @@ bool choose(const char* label, std::string& chosen, const Names& names) {
 void Interface::draw_view() {
   const float wide = 8.0f * ImGui::GetFontSize();
   bool changed = false;
+  const auto marking = [this](const std::string& widget) { mark(widget); };
   if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
     std::vector<std::string_view> names{"none"};
     for (const ColourField& field : colour_fields()) {
       if (field.name != "none") names.push_back(field.name);
     }
     ImGui::SetNextItemWidth(wide);
-    if (choose("colour by", view_.look.colour_by, names)) {
+    if (choose("colour by", view_.look.colour_by, names, marking)) {
       session_.colour_by(view_.look.colour_by);
       range_.reset();
       own_range_ = false;
@@ -46,7 +48,7 @@ void Interface::draw_view() {
     }
     mark("colour by");
     ImGui::SetNextItemWidth(wide);
-    changed |= choose("map", view_.look.colour_map, colour_map_names());
+    changed |= choose("map", view_.look.colour_map, colour_map_names(), marking);
     mark("map");
     if (ImGui::Checkbox("fixed range", &own_range_)) {
       if (!own_range_) range_.reset();

@@ -120,6 +120,17 @@ void Desk::drag(std::string_view widget, float from, float to) {
   draw();
 }
 
+void Desk::type(std::string_view widget, const char* text) {
+  ImGui::GetIO().KeyCtrl = true;
+  click(widget);
+  ImGui::GetIO().KeyCtrl = false;
+  draw();
+  for (const char* c = text; *c != 0; ++c) {
+    ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(*c));
+    draw();
+  }
+}
+
 void Desk::drag_in_picture(float dx, float dy, int mouse_button) {
   const auto box = interface_->place("picture");
   const float x = 0.5f * (box[0] + box[2]), y = 0.5f * (box[1] + box[3]);

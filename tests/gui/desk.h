@@ -32,6 +32,8 @@ class Desk {
   void double_click(std::string_view widget);
   // Presses on the widget at one fraction of its width and lets go at another.
   void drag(std::string_view widget, float from, float to);
+  // Ctrl-click, then the characters; the number counts when something else is clicked.
+  void type(std::string_view widget, const char* text);
   void drag_in_picture(float dx, float dy, int mouse_button = 0);
   void wheel(float notches);
   void key(int key, bool ctrl = false);

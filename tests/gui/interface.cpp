@@ -277,6 +277,73 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
   CHECK(desk.interface().picture_size()[0] == static_cast<int>(1280 * scale));
 }
 
+TEST_CASE("a number that is typed counts when it is done") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  const double before = desk.parameters.viscosity.nu;
+  desk.type("viscosity.nu", "0.0375");
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == before);
+  desk.click("picture");
+  desk.settle();
+  CHECK(desk.parameters.viscosity.nu == 0.0375);
+  desk.type("viscosity.nu", "2000");  // beyond the hard limit
+  desk.click("picture");
+  desk.settle();
+  CHECK(desk.interface().message().find("viscosity.nu is 2000, expected a number from 0 to 100") != std::string::npos);
+  CHECK(desk.parameters.viscosity.nu == 0.0375);
+}
+
+TEST_CASE("the widgets speak of the run that is there until another one stands") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(small);
+  const Scene own = read_scene(CURLEW_ASSETS_DIR "/scenes/dam_break.json");
+  desk.interface().open("dam_break", with_particles(own, 30000), own);
+  CHECK(desk.interface().scene().name == "Dam break in 2D");
+  for (int k = 0; k < 2000 && desk.interface().scene().name != "Dam break"; ++k) desk.draw();
+  REQUIRE(desk.interface().scene().name == "Dam break");
+  desk.settle();
+  CHECK(length(*desk.interface().view().camera.position - *own.camera.position) < 1e-9);
+  const double height = desk.interface().view().camera.position->y;
+  desk.drag_in_picture(0, 60);
+  CHECK(desk.interface().view().camera.position->y > height + 0.1);  // it turns: this is 3D
+
+  const std::string command = desk.interface().command_line();
+  desk.interface().open("free_fall");
+  desk.session.cancel();
+  desk.settle();
+  CHECK(desk.interface().scene().name == "Dam break");
+  CHECK(desk.interface().command_line() == command);
+}
+
+TEST_CASE("a colour scale forgets the field before") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open("free_fall");
+  for (const char* field : {"pressure", "density", "speed"}) {
+    desk.click("colour by");
+    desk.draw();
+    desk.click(std::string("colour by ") + field);
+    desk.settle();
+  }
+  CHECK((*desk.interface().view().look.range)[1] < 100);  // m/s, not Pa
+}
+
+TEST_CASE("saving does not replace what it has not written") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  const std::string mine = folder / "mine.json";
+  std::filesystem::copy(small, mine);
+  desk.open(mine);
+  const std::string before = file_text(mine);
+  desk.type("file", mine.c_str());
+  desk.click("Save");
+  CHECK(file_text(mine) == before);
+  CHECK(desk.interface().message().find("is there already") != std::string::npos);
+}
+
 // Not a test: where the widgets of a new window are, for real_window.sh, one a line: left, top, right, bottom, name.
 TEST_CASE("places of the widgets", "[.places]") {
   const TemporaryFolder folder;

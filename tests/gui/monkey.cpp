@@ -21,8 +21,8 @@ TEST_CASE("random clicks, drags and keys") {
   std::mt19937 random(5);
   const auto roll = [&](int sides) { return static_cast<int>(random() % static_cast<unsigned>(sides)); };
   const auto place = [&] { return std::pair(static_cast<float>(roll(960)), static_cast<float>(roll(540))); };
-  constexpr const char* known[] = {"play",  "step",       "reset", "viscosity.nu", "colour by", "cut", "dark", "Undo",
-                                   "scene", "hold plots", "Save",  "Checkpoint",   "map",       "Help"};
+  constexpr const char* known[] = {"play", "step",  "reset",      "viscosity.nu", "colour by",  "cut", "dark",
+                                   "Undo", "scene", "hold plots", "Save",         "Checkpoint", "map", "Help"};
   constexpr char keys[] = {' ', 'S', 'R', 'F', 'H', '1', '5', 'Z', 'Y'};
   bool recording = false;
   int actions = 0;
