@@ -1,52 +1,60 @@
-#!/ usr / bin / env bash
-#A real window on a virtual screen : xdotool moves mouse and keys as a person would, and files say what came of it.
-#Usage : real_window.sh CURLEW GUI_TESTS.Exit code 77 : xvfb or xdotool is missing, nothing was tested.
+#!/usr/bin/env bash
+# A real window on a virtual screen: xdotool moves mouse and keys as a person would, and files say what came of it.
+# Usage: real_window.sh CURLEW GUI_TESTS. Exit code 77: xvfb or xdotool is missing, nothing was tested.
 set -euo pipefail
 curlew=$1 gui_tests=$2
-for tool in Xvfb xdotool;
-do
-  command - v $tool > / dev / null || {echo "no $tool here: not tested" exit 77} done
+for tool in Xvfb xdotool; do
+  command -v $tool >/dev/null || {
+    echo "no $tool here: not tested"
+    exit 77
+  }
+done
 
-                                          folder = $(mktemp - d) screen = window =
-#shellcheck disable = SC2317
-      clean_up(){[[-z $window]] || kill "$window" 2 > / dev / null || true[[-z $screen]] ||
-                 kill "$screen" 2 > / dev / null || true rm - rf "$folder"} trap clean_up EXIT
-      fail(){echo "FAILED: $*" cat "$folder/window.log" exit 1}
+folder=$(mktemp -d)
+screen=
+window=
+# shellcheck disable=SC2317
+clean_up() {
+  [[ -z $window ]] || kill "$window" 2>/dev/null || true
+  [[ -z $screen ]] || kill "$screen" 2>/dev/null || true
+  rm -rf "$folder"
+}
+trap clean_up EXIT
+fail() {
+  echo "FAILED: $*"
+  cat "$folder/window.log"
+  exit 1
+}
 
-  places =
-      $("$gui_tests"
-        "[.places]" |
-        grep ^ place)
-#middle WIDGET[SHARE] : the pixel at a share of the widget's width, half its height.
-          at(){awk - v name = "$1" - v share = "${2:-0.5}" ' {widget = $6;
-for (k = 7; k <= NF; ++k) widget = widget " " $k
+places=$("$gui_tests" "[.places]" | grep ^place)
+# middle WIDGET [SHARE]: the pixel at a share of the widget's width, half its height.
+at() {
+  awk -v name="$1" -v share="${2:-0.5}" '
+    { widget = $6; for (k = 7; k <= NF; ++k) widget = widget " " $k }
+    widget == name { printf "%d %d\n", $2 + share * ($4 - $2), ($3 + $5) / 2; found = 1 }
+    END { exit !found }' <<<"$places"
 }
-widget == name {
-  printf "%d %d\n", $2 + share*($4 - $2), ($3 + $5) / 2;
-  found = 1
+# shellcheck disable=SC2046
+click() {
+  xdotool mousemove $(at "$1") sleep 0.4 mousedown 1 sleep 0.3 mouseup 1 sleep 0.5
 }
-END { exit !found }
-' <<<"$places"
-}
-#shellcheck disable = SC2046
-click(){xdotool mousemove $(at "$1") sleep 0.4 mousedown 1 sleep 0.3 mouseup 1 sleep 0.5}
-#wait_for FILE : the first file of that pattern, within 20 s.
+# wait_for FILE: the first file of that pattern, within 20 s.
 wait_for() {
   local k
-  for k in $(seq 100);
-  do compgen - G "$folder/$1" | head - n 1 && return sleep 0.2 done fail "$1 did not come"
+  for k in $(seq 100); do
+    compgen -G "$folder/$1" | head -n 1 && return
+    sleep 0.2
+  done
+  fail "$1 did not come"
 }
 
-for
-  display in $(seq 90 120);
-do
+for display in $(seq 90 120); do
   [[ ! -e /tmp/.X$display-lock ]] && break
 done
 Xvfb ":$display" -screen 0 1280x720x24 -nolisten tcp >/dev/null 2>&1 &
 screen=$!
 export DISPLAY=:$display
-for _ in $(seq 50);
-do
+for _ in $(seq 50); do
   xdotool getdisplaygeometry >/dev/null 2>&1 && break
   sleep 0.1
 done
@@ -54,36 +62,38 @@ done
 cd "$folder"
 "$curlew" gui dam_break_2d >"$folder/window.log" 2>&1 &
 window=$!
-for _ in $(seq 100);
-do
-  id = $(xdotool search-- name '^Curlew$' 2 > / dev / null | head - n 1) && [[-n $id]] &&
-           break sleep 0.2 done[[-n ${id : -}]] ||
-       fail "no window came" xdotool windowfocus "$id" sleep 2
+for _ in $(seq 100); do
+  id=$(xdotool search --name '^Curlew$' 2>/dev/null | head -n 1) && [[ -n $id ]] && break
+  sleep 0.2
+done
+[[ -n ${id:-} ]] || fail "no window came"
+xdotool windowfocus "$id"
+sleep 2
 
-#A slider that is dragged reaches the solver : the checkpoint of its state says so.
-#shellcheck disable = SC2046
-       xdotool mousemove
-       $(at viscosity.nu 0.05) sleep 0.4 mousedown 1 sleep 0.3 mousemove
-       $(at viscosity.nu 0.5) sleep 0.4 mouseup 1 sleep 0.4 click step click step click Checkpoint state =
-           $(wait_for 'out/dam_break_2d/checkpoint_000.curlew') nu =
-               $(grep - a - o '"viscosity.nu": *[0-9.e-]*' "$state" | grep - o '[0-9.e-]*$') awk - v nu =
-                   "$nu" 'BEGIN { exit !(nu > 0.02 && nu < 0.03) }' ||
-                   fail "the solver reads nu = $nu, expected about 0.025"
+# A slider that is dragged reaches the solver: the checkpoint of its state says so.
+# shellcheck disable=SC2046
+xdotool mousemove $(at viscosity.nu 0.05) sleep 0.4 mousedown 1 sleep 0.3 mousemove $(at viscosity.nu 0.5) sleep 0.4 mouseup 1 sleep 0.4
+click step
+click step
+click Checkpoint
+state=$(wait_for 'out/dam_break_2d/checkpoint_000.curlew')
+nu=$(grep -a -o '"viscosity.nu": *[0-9.e-]*' "$state" | grep -o '[0-9.e-]*$')
+awk -v nu="$nu" 'BEGIN { exit !(nu > 0.02 && nu < 0.03) }' || fail "the solver reads nu = $nu, expected about 0.025"
 
-#It runs, and pauses.
-                   xdotool key space sleep 2 key space sleep 0.5 click Energy.csv rows =
-                       $(wc - l < "$(wait_for 'out/dam_break_2d/energy_000.csv')") [[$rows - gt 10]] ||
-                       fail "only $rows rows after two seconds of playing"
+# It runs, and pauses.
+xdotool key space sleep 2 key space sleep 0.5
+click Energy.csv
+rows=$(wc -l <"$(wait_for 'out/dam_break_2d/energy_000.csv')")
+[[ $rows -gt 10 ]] || fail "only $rows rows after two seconds of playing"
 
-#Pictures of the water and of the window.
-                           click Picture wait_for 'out/dam_break_2d/picture_000.png' >
-                           / dev / null click Window wait_for 'out/dam_break_2d/window_000.png' > / dev /
-                                                                                                          null
+# Pictures of the water and of the window.
+click Picture
+wait_for 'out/dam_break_2d/picture_000.png' >/dev/null
+click Window
+wait_for 'out/dam_break_2d/window_000.png' >/dev/null
 
-#A film.
-                                                                                                          if command -
-                                                                                                      v ffprobe >
-                           / dev / null; then
+# A film.
+if command -v ffprobe >/dev/null; then
   click Film
   xdotool key space sleep 3 key space sleep 0.5
   click Film
@@ -92,20 +102,19 @@ do
   [[ $frames -gt 5 ]] || fail "the film has $frames frames"
 fi
 
-#From the start, and to the same bits as without a window.
+# From the start, and to the same bits as without a window.
 click reset
 sleep 1
-for _ in 1 2 3;
-do click step;
-done click Checkpoint state = $(wait_for 'out/dam_break_2d/checkpoint_001.curlew') "$curlew" run-- resume
-    "$state" --steps 5 --out a-- quiet nu = $(grep - a - o '"viscosity.nu": *[0-9.e-]*' "$state" |
-                                              grep - o '[0-9.e-]*$') "$curlew" run dam_break_2d-- set viscosity.nu =
-        "$nu" --steps 5 --out b-- quiet hash_of() {
-  tail - n 1 "$1/stats.csv" | sed 's/.*,//';
-}
+for _ in 1 2 3; do click step; done
+click Checkpoint
+state=$(wait_for 'out/dam_break_2d/checkpoint_001.curlew')
+"$curlew" run --resume "$state" --steps 5 --out a --quiet
+nu=$(grep -a -o '"viscosity.nu": *[0-9.e-]*' "$state" | grep -o '[0-9.e-]*$')
+"$curlew" run dam_break_2d --set viscosity.nu="$nu" --steps 5 --out b --quiet
+hash_of() { tail -n 1 "$1/stats.csv" | sed 's/.*,//'; }
 [[ -n $(hash_of a) && $(hash_of a) == "$(hash_of b)" ]] || fail "the window's run ends with another hash: $(hash_of a) $(hash_of b)"
 
-#Another scene.
+# Another scene.
 click scene
 click 'scene free_fall'
 sleep 1.5
@@ -113,9 +122,12 @@ click Picture
 wait_for 'out/free_fall/picture_000.png' >/dev/null
 
 xdotool keydown ctrl key q keyup ctrl
-for _ in $(seq 50);
-do
-kill - 0 "$window" 2 > / dev / null ||
-    break sleep 0.1 done kill - 0 "$window" 2 > / dev / null&& fail "Ctrl-Q did not close the window" wait "$window" ||
-    fail "the window ended with code $?" window =
-    [[-z ${KEEP : -}]] || cp - r out "$KEEP" echo "a real window obeyed mouse and keys"
+for _ in $(seq 50); do
+  kill -0 "$window" 2>/dev/null || break
+  sleep 0.1
+done
+kill -0 "$window" 2>/dev/null && fail "Ctrl-Q did not close the window"
+wait "$window" || fail "the window ended with code $?"
+window=
+[[ -z ${KEEP:-} ]] || cp -r out "$KEEP"
+echo "a real window obeyed mouse and keys"
