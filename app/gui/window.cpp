@@ -34,7 +34,7 @@ double seconds() {
 }
 
 // Of the time of one core that may go into pictures of the water while it runs, where the processor draws them.
-constexpr double picture_share = 0.18;
+constexpr double picture_share = 0.14;
 constexpr double idle_interval = 0.2, busy_interval = 1.0 / 60;  // s, between pictures of the interface
 constexpr double busy_after_input = 0.5;                         // s
 
