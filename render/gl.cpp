@@ -1,5 +1,7 @@
 #include "render/gl.h"
 
+#include <algorithm>
+
 #include <string>
 #include <vector>
 
@@ -80,6 +82,17 @@ VertexArray make_vertex_array() {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   return VertexArray(name);
+}
+
+Image read_picture(GLuint framebuffer, int width, int height, GLenum buffer) {
+  Image upside_down(width, height), image(width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(buffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  for (int y = 0; y < height; ++y) std::copy_n(upside_down.at(0, height - 1 - y), row, image.at(0, y));
+  return image;
 }
 
 }  // namespace curlew::gl

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "render/image.h"
+
 namespace curlew::gl {
 
 enum class Kind { buffer, texture, framebuffer, vertex_array, sampler, program };
@@ -60,5 +62,8 @@ Texture make_texture(GLenum format, int width, int height, GLenum filter = GL_NE
 Framebuffer make_framebuffer(std::span<const GLuint> colour, GLuint depth = 0);
 
 VertexArray make_vertex_array();
+
+// What a framebuffer holds, first row at the top; `buffer` is GL_BACK for a window's own.
+Image read_picture(GLuint framebuffer, int width, int height, GLenum buffer = GL_COLOR_ATTACHMENT0);
 
 }  // namespace curlew::gl

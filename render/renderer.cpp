@@ -148,15 +148,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
 }
 
 Image Renderer::read() const {
-  const State& s = *state_;
-  Image upside_down(s.width, s.height), image(s.width, s.height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.shading.picture_target());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, s.width, s.height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
-  const std::size_t row = 4 * static_cast<std::size_t>(s.width);
-  for (int y = 0; y < s.height; ++y) std::copy_n(upside_down.at(0, s.height - 1 - y), row, image.at(0, y));
-  return image;
+  return gl::read_picture(state_->shading.picture_target(), state_->width, state_->height);
 }
 
 Image Renderer::draw(const Frame& frame, const ViewSettings& settings) {

@@ -17,7 +17,7 @@ struct ViewSettings {
   // Drawn radius over particle radius, the same for all. Otherwise a little more than 1 in the water, which closes the
   // gaps, and less for drops that fly alone (render/drop_size.h).
   std::optional<double> particle_scale;
-  double flat_zoom = 1;      // of a 2D picture: 2 shows half as much
+  double flat_zoom = 1;  // of a 2D picture: 2 shows half as much
   bool show_bodies = true;
 };
 

@@ -20,7 +20,7 @@
 #include "app/gui/recorder.h"
 #include "app/gui/style.h"
 #include "app/setup.h"
-#include "render/context.h"
+#include "render/gl.h"
 #include "render/png.h"
 #include "sim/core/error.h"
 #include "sim/scene/resolution.h"
@@ -101,14 +101,7 @@ class Window {
 Image window_picture(GLFWwindow* window) {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window, &width, &height);
-  Image upside_down(width, height), image(width, height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_BACK);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(upside_down.at(0, height - 1 - y), 4 * static_cast<std::size_t>(width), image.at(0, y));
-  }
+  Image image = gl::read_picture(0, width, height, GL_BACK);
   for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
   return image;
 }

@@ -36,8 +36,8 @@ class CsvWriter {
 
   std::string path_;
   std::size_t columns_ = 0;
-  std::uint64_t size_ = 0;              // of the file, always at the end of a line
-  std::uint64_t last_row_ = 0;          // where the last row begins; 0 before there is one
+  std::uint64_t size_ = 0;      // of the file, always at the end of a line
+  std::uint64_t last_row_ = 0;  // where the last row begins; 0 before there is one
   int file_ = -1;
 };
 

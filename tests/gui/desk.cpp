@@ -168,13 +168,7 @@ void Desk::restyle(bool dark, double scale) {
 }
 
 Image Desk::picture() {
-  Image upside_down(width_, height_), image(width_, height_);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.rgba.data());
-  for (int y = 0; y < height_; ++y) {
-    std::copy_n(upside_down.at(0, height_ - 1 - y), 4 * static_cast<std::size_t>(width_), image.at(0, y));
-  }
+  Image image = gl::read_picture(target_, width_, height_);
   for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
   return image;
 }

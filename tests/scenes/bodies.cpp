@@ -97,6 +97,8 @@ TEST_CASE("water stands close to a body, and not in it", "[scene]") {
   CHECK(number <= 150);
   CHECK(sum / number >= 0.15 * scene.spacing());
   CHECK(sum / number <= 0.55 * scene.spacing());
+  CHECK_NOFAIL(number == Approx(12 * 12).epsilon(0.15));  // the aim: as off a wall
+  CHECK_NOFAIL(sum / number == Approx(0.5 * scene.spacing()).margin(0.1 * scene.spacing()));
   CHECK(run.largest([](const Moment& m) { return m.outside; }) == 0);
 }
 

@@ -50,6 +50,7 @@ TEST_CASE("a dam break gains little energy at smaller steps and tighter toleranc
   Run run(scene);
   run.simulate(1);
   CHECK(run.energy_rise(0.5) <= 6e-3);
+  CHECK_NOFAIL(run.energy_rise(0.5) <= 1e-3);  // the aim
 }
 
 TEST_CASE("a dam break with 24k particles stays incompressible and gains no energy", "[scene][slow]") {
