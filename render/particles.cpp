@@ -33,12 +33,18 @@ ParticleLayer::ParticleLayer()
 
 void ParticleLayer::upload(std::span<const Vec3> positions, std::span<const float> values) {
   count_ = positions.size();
+  shadow_count_.reset();
   positions_.upload(positions);
   values_.upload(values);
   if (count_ > indexed_) {
     indexed_ = count_ + count_ / 4;
     indices_.upload(std::span<const std::uint32_t>(quad_indices(indexed_)));
   }
+}
+
+void ParticleLayer::upload_shadow(std::span<const Vec3> positions) {
+  shadow_count_ = positions.size();
+  shadow_positions_.upload(positions);
 }
 
 void ParticleLayer::set_colours(std::string_view map, const Colour& water, std::array<double, 2> range, bool coloured) {
@@ -66,11 +72,12 @@ void ParticleLayer::draw() {
 }
 
 void ParticleLayer::draw_shadow(GLuint program) {
-  if (count_ == 0) return;
+  const std::size_t count = shadow_count_.value_or(count_);
+  if (count == 0) return;
   glUseProgram(program);
   glBindVertexArray(points_);
-  glVertexArrayVertexBuffer(points_, 0, positions_.name(), 0, sizeof(Vec3));
-  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
+  glVertexArrayVertexBuffer(points_, 0, (shadow_count_ ? shadow_positions_ : positions_).name(), 0, sizeof(Vec3));
+  glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
 }
 
 }  // namespace curlew

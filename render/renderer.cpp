@@ -9,6 +9,7 @@
 #include "render/context.h"
 #include "render/drop_size.h"
 #include "render/gl.h"
+#include "render/in_sight.h"
 #include "render/legend.h"
 #include "render/overlay.h"
 #include "render/particles.h"
@@ -40,8 +41,10 @@ int supersampling(int wanted, int width, int height) {
 }  // namespace
 
 struct Renderer::State {
-  int width, height, wanted_supersample, supersample;
-  Shading shading;
+  int width, height, wanted_supersample;
+  Shading full;
+  std::optional<Shading> draft;  // once there was one
+  Shading* shading = &full;      // of the last picture
   ParticleLayer particles;
   SolidLayer solids;
   WallLayer walls;
@@ -54,24 +57,43 @@ struct Renderer::State {
       : width(w),
         height(h),
         wanted_supersample(n),
-        supersample(supersampling(n, w, h)),
-        shading(w, h, supersample),
+        full(w, h, supersampling(n, w, h)),
         shadow_program(gl::link_program("shadow.vert", "shadow.frag")) {}
 
+  void upload_particles(const Frame& frame, const DropSize& size, const LightMap& light, bool only_in_sight);
   void draw_shadow(const LightMap& light, double radius, bool bodies);
   void draw_scene(const ViewSettings& settings, bool flat);
   void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range);
 };
 
+void Renderer::State::upload_particles(const Frame& frame, const DropSize& size, const LightMap& light,
+                                       bool only_in_sight) {
+  const std::vector<Vec3> sized = sized_particles(frame, size);
+  if (!only_in_sight) {
+    particles.upload(sized, frame.value);
+    return;
+  }
+  const double spacing = 2 * frame.geometry->particle_radius;
+  std::vector<Vec3> seen, lit;
+  std::vector<float> values;
+  for (const auto i : in_sight(sized, view, spacing)) {
+    seen.push_back(sized[i]);
+    if (!frame.value.empty()) values.push_back(frame.value[i]);
+  }
+  for (const auto i : in_sight(sized, light.view, spacing, 1)) lit.push_back(sized[i]);
+  particles.upload(seen, values);
+  particles.upload_shadow(lit);
+}
+
 void Renderer::State::draw_shadow(const LightMap& light, double radius, bool bodies) {
-  const double pixels = 2 * radius / light.metres * Shading::shadow_size;
+  const double pixels = 2 * radius / light.metres * shading->shadow_size();
   gl::set(shadow_program, "point_size", static_cast<float>(std::max(1.0, pixels)));
   particles.draw_shadow(shadow_program);
   if (bodies) solids.draw_shadow(shadow_program);
 }
 
 void Renderer::State::draw_scene(const ViewSettings& settings, bool flat) {
-  shading.begin_scene();
+  shading->begin_scene();
   particles.draw();
   if (settings.show_bodies) solids.draw_bodies();
   if (settings.look.show_floor || flat) solids.draw_floor();
@@ -95,19 +117,23 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 int Renderer::width() const { return state_->width; }
 int Renderer::height() const { return state_->height; }
-unsigned Renderer::texture() const { return state_->shading.picture(); }
+unsigned Renderer::texture() const { return state_->shading->picture(); }
 
 void Renderer::resize(int width, int height) {
   if (width == state_->width && height == state_->height) return;
   check_size(width, height, state_->wanted_supersample);
-  state_->supersample = supersampling(state_->wanted_supersample, width, height);
-  state_->shading = Shading(width, height, state_->supersample);
+  state_->full = Shading(width, height, supersampling(state_->wanted_supersample, width, height));
+  state_->draft.reset();
+  state_->shading = &state_->full;
   state_->width = width;
   state_->height = height;
 }
 
-void Renderer::render(const Frame& frame, const ViewSettings& settings) {
+void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail detail) {
   State& s = *state_;
+  const bool draft = detail == Detail::draft;
+  if (draft && !s.draft) s.draft.emplace(s.width, s.height, 0.5);
+  s.shading = draft ? &*s.draft : &s.full;
   const FrameGeometry& geometry = *frame.geometry;
   const Look& look = settings.look;
   const Theme& theme = theme_named(look.background);
@@ -122,21 +148,21 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
                    look.show_legend ? legend_margin(s.width, s.height) : 0.0);
   if (s.view.orthographic) s.view.half_height /= settings.flat_zoom;
   const LightMap light = light_map_of(geometry.domain, key_direction(s.view, geometry.dimension));
-  const ViewBlock block = view_block(s.view, theme, geometry, light, radius, s.shading.drawn_width(),
-                                     s.shading.drawn_height(), s.supersample);
+  const ViewBlock block = view_block(s.view, theme, geometry, light, radius, s.shading->drawn_width(),
+                                     s.shading->drawn_height(), s.shading->samples());
   s.block.upload(&block, sizeof block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, s.block.name());
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_PROGRAM_POINT_SIZE);
 
-  s.particles.upload(sized_particles(frame, size), frame.value);
+  s.upload_particles(frame, size, light, draft && !flat && radius > 0.9 * geometry.particle_radius);
   s.particles.set_colours(look.colour_map, theme.water, range, coloured);
   s.solids.upload(frame.geometry);
-  s.shading.begin_shadow();
+  s.shading->begin_shadow();
   if (!flat) s.draw_shadow(light, radius, settings.show_bodies);
   s.draw_scene(settings, flat);
-  s.shading.light(light.metres);
-  if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading.depth());
+  s.shading->light(light.metres);
+  if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading->depth());
   if (look.show_legend) s.draw_legend(frame, look, theme, range);
 
   glDisable(GL_BLEND);
@@ -148,7 +174,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings) {
 }
 
 Image Renderer::read() const {
-  return gl::read_picture(state_->shading.picture_target(), state_->width, state_->height);
+  return gl::read_picture(state_->shading->picture_target(), state_->width, state_->height);
 }
 
 Image Renderer::draw(const Frame& frame, const ViewSettings& settings) {
@@ -159,9 +185,10 @@ Image Renderer::draw(const Frame& frame, const ViewSettings& settings) {
 std::optional<Vec3d> Renderer::point_at(int x, int y) const {
   const State& s = *state_;
   if (x < 0 || y < 0 || x >= s.width || y >= s.height) return std::nullopt;
-  const int n = s.supersample, px = n * x + n / 2, py = n * (s.height - 1 - y) + n / 2;
+  const double n = s.shading->samples();
+  const int px = static_cast<int>(n * (x + 0.5)), py = static_cast<int>(n * (s.height - 0.5 - y));
   float depth = 0;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.shading.scene_target());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.shading->scene_target());
   glReadPixels(px, py, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
   if (depth == 0) return std::nullopt;
 
@@ -170,8 +197,8 @@ std::optional<Vec3d> Renderer::point_at(int x, int y) const {
   const double distance =
       v.orthographic ? v.far - d * (v.far - v.near) : 1 / (1 / v.far + d * (v.far - v.near) / (v.near * v.far));
   const double scale = v.half_height * (v.orthographic ? 1 : distance);
-  const double across = 2 * (px + 0.5) / s.shading.drawn_width() - 1,
-               up = 2 * (py + 0.5) / s.shading.drawn_height() - 1;
+  const double across = 2 * (px + 0.5) / s.shading->drawn_width() - 1,
+               up = 2 * (py + 0.5) / s.shading->drawn_height() - 1;
   return v.position + distance * v.forward + across * v.aspect * scale * v.right + up * scale * v.up;
 }
 

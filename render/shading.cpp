@@ -12,19 +12,19 @@ int half(int pixels) { return std::max(1, (pixels + 1) / 2); }
 
 }  // namespace
 
-Shading::Shading(int width, int height, int supersample)
+Shading::Shading(int width, int height, double samples)
     : width_(width),
       height_(height),
-      supersample_(supersample),
+      samples_(samples),
       nothing_(gl::make_vertex_array()),
       distance_program_(gl::link_program("fullscreen.vert", "distance.frag")),
       smooth_program_(gl::link_program("fullscreen.vert", "smooth.frag")),
       occlusion_program_(gl::link_program("fullscreen.vert", "occlusion.frag")),
       blur_program_(gl::link_program("fullscreen.vert", "blur.frag")),
       shade_program_(gl::link_program("fullscreen.vert", "shade.frag")),
-      resolve_program_(gl::link_program("fullscreen.vert", "resolve.frag")) {
+      resolve_program_(gl::link_program("fullscreen.vert", samples < 1 ? "enlarge.frag" : "resolve.frag")) {
   const int w = drawn_width(), h = drawn_height(), hw = half(w), hh = half(h);
-  shadow_map_ = gl::make_texture(GL_DEPTH_COMPONENT32F, shadow_size, shadow_size, GL_LINEAR);
+  shadow_map_ = gl::make_texture(GL_DEPTH_COMPONENT32F, shadow_size(), shadow_size(), GL_LINEAR);
   glTextureParameteri(shadow_map_, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   depth_ = gl::make_texture(GL_DEPTH_COMPONENT32F, w, h);
   albedo_ = gl::make_texture(GL_RGBA8, w, h);
@@ -54,7 +54,7 @@ Shading::Shading(int width, int height, int supersample)
 
 void Shading::begin_shadow() {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
-  glViewport(0, 0, shadow_size, shadow_size);
+  glViewport(0, 0, shadow_size(), shadow_size());
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
@@ -101,8 +101,9 @@ void Shading::light(double light_map_metres) {
   }
 
   // The lamp is a disc: its shadows' edges are a hundredth of the domain wide.
-  const float texel = static_cast<float>(light_map_metres) / shadow_size;
-  gl::set(occlusion_program_, "light_texel", 1.f / shadow_size, 1.f / shadow_size, texel, 0.006f);
+  const float texel = static_cast<float>(light_map_metres / shadow_size());
+  const float part = 1 / static_cast<float>(shadow_size());
+  gl::set(occlusion_program_, "light_texel", part, part, texel, 0.006f);
   sources({smoothed_, normal_, shadow_map_});
   full_screen(occlusion_program_, occlusion_target_, hw, hh);
   sources({light_, smoothed_});

@@ -1,13 +1,16 @@
 // Everything after the G-buffer: smoothing, occlusion, light, and the way to the final picture. Owns all targets.
 #pragma once
 
+#include <algorithm>
+
 #include "render/gl.h"
 
 namespace curlew {
 
 class Shading {
  public:
-  Shading(int width, int height, int supersample);
+  // samples: drawn pixels for each one of the picture, along one side: 1/2, 1, 2, 3 ...
+  Shading(int width, int height, double samples);
 
   // Targets of the passes that others draw, in this order. Each call binds and clears.
   void begin_shadow();
@@ -16,9 +19,10 @@ class Shading {
   // legend to be drawn over it.
   void light(double light_map_metres);
 
-  int drawn_width() const { return supersample_ * width_; }
-  int drawn_height() const { return supersample_ * height_; }
-  static constexpr int shadow_size = 1024;
+  int drawn_width() const { return drawn(width_); }
+  int drawn_height() const { return drawn(height_); }
+  double samples() const { return samples_; }
+  int shadow_size() const { return samples_ < 1 ? 512 : 1024; }
 
   GLuint picture() const { return picture_; }
   GLuint picture_target() const { return picture_target_; }
@@ -28,7 +32,10 @@ class Shading {
  private:
   void full_screen(const gl::Program& program, GLuint target, int width, int height);
 
-  int width_, height_, supersample_;
+  int drawn(int pixels) const { return std::max(1, static_cast<int>(samples_ * pixels)); }
+
+  int width_, height_;
+  double samples_;
   gl::VertexArray nothing_;
   gl::Program distance_program_, smooth_program_, occlusion_program_, blur_program_, shade_program_, resolve_program_;
   gl::Texture shadow_map_, depth_, albedo_, normal_;                                           // of the drawn size

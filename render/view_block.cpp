@@ -39,11 +39,17 @@ LightMap light_map_of(const Domain& domain, Vec3d to_light) {
   set_row(light.world_to_light, 0, scale * u, 0.5 - scale * dot(u, centre));
   set_row(light.world_to_light, 1, scale * v, 0.5 - scale * dot(v, centre));
   set_row(light.world_to_light, 2, -scale * to_light, 0.5 + scale * dot(to_light, centre));
+  light.view.position = centre + size * to_light;
+  light.view.right = u;
+  light.view.up = v;
+  light.view.forward = -1.0 * to_light;
+  light.view.orthographic = true;
+  light.view.half_height = 0.5 * size;
   return light;
 }
 
 ViewBlock view_block(const View& view, const Theme& theme, const FrameGeometry& geometry, const LightMap& light,
-                     double particle_radius, int width, int height, int supersample) {
+                     double particle_radius, int width, int height, double samples) {
   const Domain& domain = geometry.domain;
   const double diagonal = length(domain.max - domain.min);
   ViewBlock b;
@@ -67,7 +73,7 @@ ViewBlock view_block(const View& view, const Theme& theme, const FrameGeometry& 
   b.grid_colour = four(theme.grid, theme.grid_strength);
   b.body_colour = four(theme.body);
   b.line_colour = four(theme.line, theme.line_opacity);
-  b.sampling = {static_cast<float>(supersample), 0, 0, 0};
+  b.sampling = {static_cast<float>(samples), 0, 0, 0};
   return b;
 }
 

@@ -24,14 +24,15 @@ struct ViewBlock {
 struct LightMap {
   Matrix4 world_to_light;
   double metres = 0;  // side of the square
+  View view;          // the same as a view
 };
 LightMap light_map_of(const Domain& domain, Vec3d to_light);
 
 // Towards the lamp, in world space: over the viewer's left shoulder, so that shadows fall away from us to the right.
 Vec3d key_direction(const View& view, int dimension);
 
-// width and height as drawn, that is, supersample times the picture's.
+// width and height as drawn, that is, `samples` times the picture's.
 ViewBlock view_block(const View& view, const Theme& theme, const FrameGeometry& geometry, const LightMap& light,
-                     double particle_radius, int width, int height, int supersample);
+                     double particle_radius, int width, int height, double samples);
 
 }  // namespace curlew

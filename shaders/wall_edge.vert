@@ -24,9 +24,10 @@ void main() {
     if (a.z > nearest) a = mix(a, b, (a.z - nearest) / (a.z - b.z));
     if (b.z > nearest) b = mix(b, a, (b.z - nearest) / (b.z - a.z));
   }
-  // A little towards the eye: an edge lies on the floor and must not fight with it.
-  a = flat_picture ? a + vec3(0, 0, domain_min.w) : a * 0.999;
-  b = flat_picture ? b + vec3(0, 0, domain_min.w) : b * 0.999;
+  // A little towards the eye: an edge lies on the floor and must not fight with it, least of all with a draft's.
+  float nearer = sampling.x < 1 ? 0.99 : 0.999;
+  a = flat_picture ? a + vec3(0, 0, domain_min.w) : a * nearer;
+  b = flat_picture ? b + vec3(0, 0, domain_min.w) : b * nearer;
 
   vec4 from = view_to_clip * vec4(a, 1), to = view_to_clip * vec4(b, 1);
   vec2 direction = (to.xy / to.w - from.xy / from.w) * size.xy / sampling.x;

@@ -306,7 +306,8 @@ void Interface::draw_picture(unsigned picture, std::array<float, 4> box) {
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   begin_panel("Water", box[0], box[1], box[2] - box[0], box[3] - box[1],
-              ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+              ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                  (picture != 0 ? ImGuiWindowFlags_NoBackground : 0));
   if (picture != 0) {
     // The texture's first row is the lowest.
     ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture)), {box[2] - box[0], box[3] - box[1]},

@@ -60,6 +60,8 @@ class Interface {
   };
   Requests take_requests();
   bool dark() const { return dark_; }
+  // Of the wall time that may go into drawing while the water runs.
+  double drawing_share() const { return static_cast<double>(drawing_percent_) / 100; }
   double scale() const { return scale_; }
   // out/NAME/KIND_000.EXTENSION, the first number that is free.
   std::filesystem::path new_file(const std::string& kind, const std::string& extension);
@@ -160,6 +162,7 @@ class Interface {
   bool cut_low_ = false;
 
   bool show_parameters_ = true, show_view_ = true, show_plots_ = true, show_help_ = false, dark_ = false;
+  float drawing_percent_ = 20;
   double scale_ = 1;
   std::array<int, 2> picture_size_{640, 360};
   Requests requests_;

@@ -131,6 +131,13 @@ void Interface::draw_view() {
         requests_.restyle = true;
       }
     }
+    ImGui::SetNextItemWidth(wide);
+    ImGui::SliderFloat("drawing", &drawing_percent_, 5, 75, "%.0f %% of time", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "While the water runs: more makes its motion smoother and, where no graphics card draws,\n"
+          "the solver slower.");
+    mark("drawing");
   }
   if (changed) show_settings_changed();
 }

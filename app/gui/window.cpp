@@ -33,10 +33,9 @@ double seconds() {
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-// Of the time of one core that may go into pictures of the water while it runs, where the processor draws them.
-constexpr double picture_share = 0.14;
 constexpr double idle_interval = 0.2, busy_interval = 1.0 / 60;  // s, between pictures of the interface
 constexpr double busy_after_input = 0.5;                         // s
+constexpr double quick = 1.0 / 60;  // s: what takes longer to draw is drawn as a draft while it moves
 
 void key_changed(GLFWwindow* window, int key, int, int action, int modifiers) {
   auto* interface = static_cast<Interface*>(glfwGetWindowUserPointer(window));
@@ -127,14 +126,19 @@ class Loop {
   }
 
  private:
+  bool playing() const { return interface_.status().state == RunState::playing; }
+  bool touched() const { return seconds() - last_input_ < busy_after_input; }
+
   // Waits for input, or for as long as the interface may stay as it is.
   void wait(double begin) {
     const ImGuiIO& io = ImGui::GetIO();
-    const bool touched = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 ||
-                         ImGui::IsAnyItemActive() || io.WantTextInput;
-    if (touched) last_input_ = seconds();
-    const bool busy = recorder_.running() || seconds() - last_input_ < busy_after_input;
-    const double interval = busy ? busy_interval : idle_interval;
+    const bool input = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 || ImGui::IsAnyItemActive() ||
+                       io.WantTextInput;
+    if (input) last_input_ = seconds();
+    const bool busy = recorder_.running() || touched();
+    double interval = busy ? busy_interval : idle_interval;
+    // With the water's next picture, not just before it.
+    if (playing()) interval = std::clamp(water_due_ - begin + 2e-3, busy_interval, busy ? interval : 2 * interval);
     const double left = interval - (seconds() - begin);
     if (busy) {
       if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
@@ -166,32 +170,37 @@ class Loop {
                          : "The film ended before its first frame: nothing written");
   }
 
-  // The newest state at most so often that drawing takes its share and no more; at once where the view was moved or the
-  // water stands still.
+  // The newest state, so often that drawing takes its share of the time and no more. Where a picture is slow, that is
+  // where a processor draws it, motion is shown in drafts and what stands still in full.
   void draw_water() {
-    const auto frame = interface_.frame();
-    if (!frame) return;
-    const bool running = interface_.status().state == RunState::playing;
-    if (drawn_version_ == interface_.version()) return;
-    const bool due = seconds() - drawn_at_ > draw_seconds_ / picture_share;
-    const bool touched = seconds() - last_input_ < busy_after_input;
-    if (running && !due && !(touched && seconds() - drawn_at_ > 2 * draw_seconds_)) return;
+    if (!interface_.frame()) return;
+    const bool moves = playing() || touched(), is_new = drawn_version_ != interface_.version();
+    const bool draft = moves && slow_;
+    if (!is_new && (draft || !is_draft_)) return;
+    if (playing() && seconds() < (touched() ? std::min(water_due_, drawn_at_ + 2 * draw_seconds_) : water_due_)) return;
+    draw_water(draft ? Renderer::Detail::draft : Renderer::Detail::full);
+  }
+
+  void draw_water(Renderer::Detail detail) {
     const auto [width, height] = interface_.picture_size();
     const double begin = seconds();
     try {
       renderer_.resize(width, height);
-      renderer_.render(*frame, interface_.view());
+      renderer_.render(*interface_.frame(), interface_.view(), detail);
       glFinish();
     } catch (const InputError& error) {
       interface_.say(error.what(), true);
     }
     drawn_at_ = seconds();
     draw_seconds_ = drawn_at_ - begin;
+    is_draft_ = detail == Renderer::Detail::draft;
+    if (!is_draft_) slow_ = draw_seconds_ > quick;
     drawn_version_ = interface_.version();
     have_picture_ = true;
   }
 
   void draw_interface() {
+    const double begin = seconds();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_.handle(), &width, &height);
     ImGui_ImplOpenGL3_NewFrame();
@@ -204,6 +213,7 @@ class Loop {
     glClearColor(0.1f, 0.1f, 0.1f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    water_due_ = drawn_at_ + (draw_seconds_ + seconds() - begin) / interface_.drawing_share();
   }
 
   // Does what was asked for; false where the window is to close.
@@ -233,6 +243,10 @@ class Loop {
   }
 
   void save_picture(bool with_interface) {
+    if (is_draft_) {
+      draw_water(Renderer::Detail::full);
+      draw_interface();
+    }
     const auto file = interface_.new_file(with_interface ? "window" : "picture", "png");
     std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
     write_png(file, with_interface ? window_picture(window_.handle()) : renderer_.read());
@@ -246,8 +260,8 @@ class Loop {
   Recorder recorder_;
   std::int64_t filmed_scene_ = 0;
   std::uint64_t drawn_version_ = 0;
-  double drawn_at_ = 0, draw_seconds_ = 0, last_input_ = 0;
-  bool have_picture_ = false;
+  double drawn_at_ = 0, draw_seconds_ = 0, water_due_ = 0, last_input_ = 0;
+  bool have_picture_ = false, is_draft_ = false, slow_ = false;
 };
 
 }  // namespace
