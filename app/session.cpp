@@ -13,6 +13,7 @@
 #include "sim/core/error.h"
 #include "sim/measure/diagnostics.h"
 #include "sim/measure/state_hash.h"
+#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -59,7 +60,7 @@ void Session::post(std::function<void()> task) {
   wake_.notify_all();
 }
 
-void Session::open(Scene scene, std::uint64_t seed) {
+void Session::open(Scene scene, std::uint64_t seed, std::optional<double> particles) {
   std::int64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -68,7 +69,7 @@ void Session::open(Scene scene, std::uint64_t seed) {
     status_.loading_what = scene.name;
     loading_since_ = now();
   }
-  post([this, scene = std::move(scene), seed, number] { lay_out(scene, seed, number); });
+  post([this, scene = std::move(scene), seed, particles, number] { lay_out(scene, seed, particles, number); });
 }
 
 void Session::cancel() {
@@ -215,7 +216,7 @@ void Session::work() {
   }
 }
 
-void Session::lay_out(const Scene& scene, std::uint64_t seed, std::int64_t number) {
+void Session::lay_out(Scene scene, std::uint64_t seed, std::optional<double> particles, std::int64_t number) {
   const auto newest = [&] {
     const std::lock_guard lock(mutex_);
     return number == newest_;
@@ -223,6 +224,8 @@ void Session::lay_out(const Scene& scene, std::uint64_t seed, std::int64_t numbe
   if (!newest()) return;
   std::string failure;
   try {
+    if (particles) scene = with_particles(std::move(scene), *particles);
+    if (!newest()) return;
     World world = make_world(scene, seed);
     if (!newest()) return;
     Plan plan = make_plan(world);
@@ -250,6 +253,7 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
     samples_.clear();
     recorded_.clear();
     parameters_ = world.scene.parameters;
+    status_.particle_radius = world.scene.particle_radius;
   }
   world_ = std::move(world);
   plan_ = std::move(plan);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -39,6 +40,7 @@ struct SessionStatus {
   double loading_seconds = 0;
   std::string loading_what;
   std::size_t particles = 0;
+  double particle_radius = 0;  // m
   std::int64_t step = 0;
   double time = 0, dt = 0;       // s
   double real_time_factor = 0;   // simulated seconds a second, over the last second
@@ -62,8 +64,9 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   // Lays out a scene, paused. The run that is there stays until the new one stands, and for good where that fails, or
-  // where cancel() or another open() comes first.
-  void open(Scene scene, std::uint64_t seed = 0);
+  // where cancel() or another open() comes first. Where a number of particles is given, the spacing that comes nearest
+  // replaces the scene's.
+  void open(Scene scene, std::uint64_t seed = 0, std::optional<double> particles = {});
   void cancel();
 
   void play(bool on);
@@ -96,7 +99,7 @@ class Session {
  private:
   void post(std::function<void()> task);
   void work();
-  void lay_out(const Scene& scene, std::uint64_t seed, std::int64_t number);
+  void lay_out(Scene scene, std::uint64_t seed, std::optional<double> particles, std::int64_t number);
   void adopt(World world, Plan plan, std::int64_t number);
   void plan();
   void advance();

@@ -35,8 +35,9 @@ float cover_of(float alpha) { return clamp(2 * alpha - 1, 0, 1); }
 // Metres that a pixel covers at a distance along the view axis.
 float pixel_at(float dist) { return domain_max.w * (key_direction.w > 0.5 ? 1.0 : dist); }
 
-// How far a sphere's partly covered rim reaches out, in pixels; supersampling needs none, and drafts have no time for it.
-float rim_pixels() { return sampling.x == 1 ? 0.5 : 0.0; }
+// How far a sphere's partly covered rim reaches out, in pixels. Supersampling needs none, nor do drafts; but in flat
+// ones there would be gaps.
+float rim_pixels() { return sampling.x == 1 || (sampling.x < 1 && up.w < 2.5) ? 0.5 : 0.0; }
 
 float depth_of(vec3 view_position) {
   vec4 clip = view_to_clip * vec4(view_position, 1);

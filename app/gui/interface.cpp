@@ -18,18 +18,6 @@
 namespace curlew {
 namespace {
 
-constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-void begin_panel(const char* name, float x, float y, float width, float height, ImGuiWindowFlags flags = 0) {
-  ImGui::SetNextWindowPos({x, y});
-  ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin(name, nullptr, panel_flags | flags);
-}
-
-// Messages stay this long; errors until the next.
-constexpr double message_seconds = 8;
 constexpr std::size_t most_samples = 400000;
 
 }  // namespace
@@ -54,18 +42,19 @@ void Interface::open(const std::string& name, const Scene& scene, const Scene& o
   session_.open(scene, settings_.seed);
 }
 
-void Interface::lay_out_again(const Scene& scene) {
-  Pending next{scene_name_, scene, scene, false};
+void Interface::lay_out_again(std::optional<double> particles) {
+  Pending next{scene_name_, scene_, scene_, false};
   next.own.parameters = own_;
   next.own.particle_radius = own_radius_;
   pending_ = next;
-  session_.open(scene, settings_.seed);
+  session_.open(scene_, settings_.seed, particles);
 }
 
 // The scene that was asked for stands: from here on the widgets speak of it.
 void Interface::install(const Pending& next) {
   held_ = nullptr;
   scene_ = next.scene;
+  scene_.particle_radius = status_.particle_radius;
   own_ = next.own.parameters;
   own_radius_ = next.own.particle_radius;
   samples_.clear();
@@ -89,6 +78,7 @@ void Interface::install(const Pending& next) {
 
 void Interface::take(Session::Update update) {
   status_ = std::move(update.status);
+  solver_ = update.parameters;
   if (status_.scene_number != scene_number_) {
     scene_number_ = status_.scene_number;
     laid_out_particles_ = wanted_particles_ = static_cast<int>(status_.particles);
@@ -115,9 +105,9 @@ Interface::Requests Interface::take_requests() { return std::exchange(requests_,
 std::filesystem::path Interface::new_file(const std::string& kind, const std::string& extension) {
   const std::filesystem::path folder = settings_.out / std::filesystem::path(scene_.file).stem();
   for (int n = 0;; ++n) {
-    char name[32];
-    std::snprintf(name, sizeof name, "_%03d.", n);
-    const auto path = folder / (kind + name + extension);
+    char number[16];
+    std::snprintf(number, sizeof number, "_%03d", n);
+    const auto path = folder / (kind + number + (extension.empty() ? "" : "." + extension));
     std::error_code ignored;
     // A name that was handed out counts as taken: its file may be written later.
     if (!std::filesystem::exists(path, ignored) && given_.insert(path).second) return path;
@@ -229,73 +219,6 @@ void Interface::draw(unsigned picture) {
   if (show_help_) draw_help();
 }
 
-void Interface::draw_toolbar(float height) {
-  begin_panel("Tools", 0, 0, ImGui::GetIO().DisplaySize.x, height, ImGuiWindowFlags_NoScrollbar);
-  ImGui::SetNextItemWidth(11 * ImGui::GetFontSize());
-  if (ImGui::BeginCombo("##scene", scene_.name.empty() ? "choose a scene" : scene_.name.c_str(),
-                        ImGuiComboFlags_HeightLarge)) {
-    for (const SceneInfo& info : bundled_) {
-      if (ImGui::Selectable(info.name.c_str(), info.name == scene_name_)) open(info.name);
-      mark("scene " + info.name);
-      if (ImGui::IsItemHovered()) {
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
-        ImGui::TextUnformatted(info.about.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-      }
-    }
-    ImGui::EndCombo();
-  }
-  mark("scene");
-  if (ImGui::IsItemHovered() && !scene_.about.empty()) {
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
-    ImGui::TextUnformatted(scene_.about.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-  }
-  const bool there = status_.state != RunState::empty, playing = status_.state == RunState::playing;
-  const auto same_size = [&](const char* label, const char* name, const char* tip, bool enabled) {
-    ImGui::SameLine();
-    ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(label, {4.2f * ImGui::GetFontSize(), 0});
-    ImGui::EndDisabled();
-    mark(name);
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
-    return pressed;
-  };
-  if (same_size(playing ? "Pause" : "Play", "play", "Let the water run, or hold it (Space)", there)) {
-    session_.play(!playing);
-  }
-  if (same_size("Step", "step", "One time step (S)", there && !playing)) session_.step_once();
-  if (same_size("Reset", "reset", "From the start, with the parameters as they are set (R)", there))
-    lay_out_again(scene_);
-  ImGui::SameLine(0, 2 * ImGui::GetFontSize());
-  if (button("Picture", "Save the picture of the water (P)", there)) requests_.screenshot = true;
-  ImGui::SameLine();
-  if (button("Window", "Save a picture of the whole window (Shift-P)", there)) {
-    requests_.screenshot = requests_.with_interface = true;
-  }
-  ImGui::SameLine();
-  if (button(status_.recording ? "End film" : "Film", "Film the run at 60 frames a simulated second, as mp4", there)) {
-    (status_.recording ? requests_.stop_recording : requests_.start_recording) = true;
-  }
-  mark("film");
-  ImGui::SameLine(0, 2 * ImGui::GetFontSize());
-  ImGui::Checkbox("parameters", &show_parameters_);
-  mark("show parameters");
-  ImGui::SameLine();
-  ImGui::Checkbox("view", &show_view_);
-  mark("show view");
-  ImGui::SameLine();
-  ImGui::Checkbox("plots", &show_plots_);
-  mark("show plots");
-  ImGui::SameLine();
-  if (button("Help", "Keys and mouse (H)")) show_help_ = !show_help_;
-  ImGui::End();
-}
-
 void Interface::draw_picture(unsigned picture, std::array<float, 4> box) {
   const int width = std::max(16, static_cast<int>(box[2] - box[0])),
             height = std::max(16, static_cast<int>(box[3] - box[1]));
@@ -362,7 +285,7 @@ void Interface::handle_key(const Key& pressed) {
   const bool playing = status_.state == RunState::playing;
   if (key == ' ') session_.play(!playing);
   if (key == 'S' && !playing) session_.step_once();
-  if (key == 'R') lay_out_again(scene_);
+  if (key == 'R') lay_out_again();
   if (key == 'P') {
     requests_.screenshot = true;
     requests_.with_interface = pressed.shift;
@@ -376,97 +299,6 @@ void Interface::handle_key(const Key& pressed) {
     orbit_is_own_ = true;
     update_view();
   }
-}
-
-void Interface::draw_status(float height) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  begin_panel("Status", 0, size.y - height, size.x, height, ImGuiWindowFlags_NoScrollbar);
-  const char* state = status_.state == RunState::playing    ? "running"
-                      : status_.state == RunState::diverged ? "diverged"
-                      : status_.state == RunState::paused   ? "paused"
-                                                            : "no scene";
-  ImGui::Text("%s   %zu particles   t = %.3f s   step %lld   dt %.3g ms   %.3gx real time   %.3g steps/s   %.3g MB%s",
-              state, status_.particles, status_.time, static_cast<long long>(status_.step), 1e3 * status_.dt,
-              status_.state == RunState::playing ? status_.real_time_factor : 0.0,
-              status_.state == RunState::playing ? status_.steps_a_second : 0.0,
-              1e-6 * static_cast<double>(status_.solver_bytes), status_.recording ? "   filming" : "");
-  mark("status");
-  if (!message_.empty() && (message_is_error_ || ImGui::GetTime() - message_time_ < message_seconds)) {
-    // Over the picture, where there is room for a whole sentence.
-    ImGui::SetNextWindowPos(
-        {0.5f * size.x, size.y -
-                            (show_plots_ ? std::min(14.0f * 14 * static_cast<float>(scale_), 0.35f * size.y) : 0.0f) -
-                            height - 10},
-        0, {0.5f, 1});
-    ImGui::SetNextWindowBgAlpha(0.92f);
-    ImGui::Begin("Message", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    ImGui::PushTextWrapPos(34 * ImGui::GetFontSize());
-    if (message_is_error_) {
-      ImGui::TextColored({0.85f, 0.2f, 0.1f, 1}, "%s", message_.c_str());
-      if (button("OK", "Close this message")) message_.clear();
-      if (status_.state == RunState::diverged) {
-        ImGui::SameLine();
-        if (button("Go on with half the time step", "Halves time.cfl, or time.fixed_step where that is set")) {
-          Parameters next = scene_.parameters;
-          const ParameterRow& row = parameter_row(next.time.fixed_step > 0 ? "time.fixed_step" : "time.cfl");
-          row.set(next, std::max(row.min, row.get(next) / 2));
-          change(next);
-          message_.clear();
-          session_.play(true);
-        }
-      }
-    } else {
-      ImGui::TextUnformatted(message_.c_str());
-    }
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-  }
-  ImGui::End();
-}
-
-void Interface::draw_loading() {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (status_.loading_seconds < 0.3) return;  // what is quick needs no sign
-  ImGui::SetNextWindowPos({0.5f * size.x, 0.45f * size.y}, 0, {0.5f, 0.5f});
-  ImGui::Begin("Loading", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::Text("Laying out %s ... %.1f s", status_.loading_what.c_str(), status_.loading_seconds);
-  if (button("Cancel", "Keep the run that is there")) session_.cancel();
-  ImGui::End();
-}
-
-void Interface::draw_help() {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5f * size.x, 0.45f * size.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-  ImGui::Begin("Keys and mouse", &show_help_,
-               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  constexpr const char* rows[][2] = {
-      {"Space", "play or pause"},
-      {"S", "one step"},
-      {"R", "from the start"},
-      {"F", "all of the domain in sight"},
-      {"1 to 6", "from the front, back, left, right, top, corner"},
-      {"P, Shift-P", "save the picture, the whole window"},
-      {"Ctrl-Z, Ctrl-Y", "undo, redo"},
-      {"Ctrl-Q", "leave"},
-      {"drag", "turn the view"},
-      {"right-drag, Shift-drag", "move it"},
-      {"wheel", "zoom"},
-      {"double-click a name", "the scene's own value"},
-      {"Ctrl-click a slider", "type a number, also beyond the slider"},
-  };
-  if (ImGui::BeginTable("keys", 2)) {
-    for (const auto& row : rows) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row[0]);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row[1]);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
 }
 
 }  // namespace curlew

@@ -55,6 +55,7 @@ class Interface {
   struct Requests {
     bool screenshot = false, with_interface = false;
     bool start_recording = false, stop_recording = false;
+    bool as_frames = false;  // PNG files, not a film
     bool restyle = false;
     bool quit = false;
   };
@@ -63,7 +64,7 @@ class Interface {
   // Of the wall time that may go into drawing while the water runs.
   double drawing_share() const { return static_cast<double>(drawing_percent_) / 100; }
   double scale() const { return scale_; }
-  // out/NAME/KIND_000.EXTENSION, the first number that is free.
+  // out/NAME/KIND_000.EXTENSION, the first number that is free; a folder where there is no extension.
   std::filesystem::path new_file(const std::string& kind, const std::string& extension);
   // A frame as the picture shows it: without what the cut takes away.
   std::shared_ptr<const Frame> cut_open(const std::shared_ptr<const Frame>& frame) const;
@@ -89,8 +90,11 @@ class Interface {
     Scene scene, own;
     bool fresh;
   };
+  // Of a parameter that is set and not read yet, because it counts from the next layout.
+  bool waits(const ParameterRow& row) const;
   void install(const Pending& next);
-  void lay_out_again(const Scene& scene);
+  // The scene from the start, with the parameters as they are set; with another spacing where a number is given.
+  void lay_out_again(std::optional<double> particles = {});
 
   // interface.cpp: layout, tool bar, picture, shortcuts
   void draw_toolbar(float height);
@@ -142,6 +146,7 @@ class Interface {
   double message_time_ = 0;
 
   std::optional<Pending> pending_;
+  Parameters solver_;  // that the run reads
   SessionStatus status_;
   std::int64_t scene_number_ = 0;
   std::vector<Sample> samples_;

@@ -1,6 +1,7 @@
 // The parameters, from their table: sliders with unit, range, symbol and tool tip, undo, and scene files.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app/gui/interface.h"
@@ -8,7 +9,6 @@
 #include "sim/core/error.h"
 #include "sim/io/atomic_file.h"
 #include "sim/scene/reader.h"
-#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -101,8 +101,9 @@ void Interface::draw_parameter(const ParameterRow& row) {
   tool_tip(row);
   ImGui::SameLine();
   const std::string label = label_of(row);
-  if (changed_from_own) {
-    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s *", label.c_str());
+  if (changed_from_own || waits(row)) {
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s %s", label.c_str(),
+                       waits(row) ? "(Apply)" : "*");
   } else {
     ImGui::TextUnformatted(label.c_str());
   }
@@ -135,6 +136,10 @@ void Interface::draw_parameter(const ParameterRow& row) {
     say(error.what(), true);
   }
   ImGui::PopID();
+}
+
+bool Interface::waits(const ParameterRow& row) const {
+  return !row.live && status_.state != RunState::empty && row.get(scene_.parameters) != row.get(solver_);
 }
 
 void Interface::change(const Parameters& next) {
@@ -193,12 +198,12 @@ void Interface::draw_resolution() {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Lays the scene out anew with the spacing that comes nearest.");
   ImGui::SameLine();
   if (button("Apply", "Lay out the scene with this many particles and with the parameters that need it")) {
-    try {
-      if (wanted_particles_ < 1) throw InputError("the number of particles has to be at least 1");
-      const bool same = wanted_particles_ == laid_out_particles_;
-      lay_out_again(same ? scene_ : with_particles(scene_, wanted_particles_));
-    } catch (const std::exception& error) {
-      say(error.what(), true);
+    if (wanted_particles_ < 1) {
+      say("the number of particles has to be at least 1", true);
+    } else if (wanted_particles_ == laid_out_particles_) {
+      lay_out_again();
+    } else {
+      lay_out_again(wanted_particles_);
     }
   }
 }
@@ -247,6 +252,16 @@ void Interface::draw_parameters() {
   if (button("Redo", "Make it again (Ctrl-Y)", !future_.empty())) redo();
   ImGui::SameLine();
   if (button("Scene's own", "All parameters as the scene has them")) change(own_);
+  const auto& rows = parameter_table();
+  const auto waiting = std::count_if(rows.begin(), rows.end(), [this](const ParameterRow& row) { return waits(row); });
+  if (waiting > 0) {
+    ImGui::SameLine();
+    const std::string label = "Apply " + std::to_string(waiting);
+    if (button((label + "###Apply waiting").c_str(), "Lay the scene out anew: what was changed counts from then on")) {
+      lay_out_again();
+    }
+    mark("Apply waiting");
+  }
   if (ImGui::CollapsingHeader("Scene file", ImGuiTreeNodeFlags_DefaultOpen)) draw_files();
   if (ImGui::CollapsingHeader("Turbulence", ImGuiTreeNodeFlags_DefaultOpen)) draw_turbulence();
   std::string heading;

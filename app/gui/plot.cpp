@@ -72,7 +72,7 @@ void draw_grid(ImDrawList& list, const Axes& axes, float line_height) {
   } else {
     for (const double v : round_ticks({axes.y0, axes.y1}, rows).at) label(axes.y(v), short_number(v));
   }
-  const int columns = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (5 * line_height)));
+  const int columns = std::max(3, static_cast<int>((axes.high.x - axes.low.x) / (4 * line_height)));
   for (const double t : round_ticks({axes.t0, axes.t1}, columns).at) {
     const std::string text = short_number(t);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());

@@ -15,6 +15,10 @@ constexpr const char* font_files[] = {
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
 };
 
+constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 bool has_greek = false;
 
 void load_font(double scale) {
@@ -65,6 +69,12 @@ void set_style(bool dark, double scale) {
   static double loaded = 0;
   if (loaded != scale || !ImGui::GetIO().Fonts->IsBuilt()) load_font(scale);
   loaded = scale;
+}
+
+void begin_panel(const char* name, float x, float y, float width, float height, int flags) {
+  ImGui::SetNextWindowPos({x, y});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin(name, nullptr, panel_flags | flags);
 }
 
 std::string written_symbol(const std::string& symbol) {

@@ -9,6 +9,9 @@ namespace curlew {
 // frames; a font change needs the backend's font texture made anew, which the next frame does.
 void set_style(bool dark, double scale);
 
+// Begins a window of a fixed place and size (pixels), without a title. ImGui::End() ends it.
+void begin_panel(const char* name, float x, float y, float width, float height, int flags = 0);
+
 // A paper's symbol as it is written by hand: "nu" becomes the Greek letter where the font has it.
 std::string written_symbol(const std::string& symbol);
 // "m^2/s" with a raised 2.

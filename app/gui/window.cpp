@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -35,6 +36,7 @@ double seconds() {
 
 constexpr double idle_interval = 0.2, busy_interval = 1.0 / 60;  // s, between pictures of the interface
 constexpr double busy_after_input = 0.5;                         // s
+constexpr int most_losses = 5;                                   // of the OpenGL context, before we give up
 constexpr double quick = 1.0 / 60;  // s: what takes longer to draw is drawn as a draft while it moves
 
 void key_changed(GLFWwindow* window, int key, int, int action, int modifiers) {
@@ -55,6 +57,7 @@ class Window {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // or nobody says that it is lost
     glfwWindowHint(GLFW_SAMPLES, 0);  // the picture is smooth already, and software pays dearly
     float scale = 1, ignored = 1;
     if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &scale, &ignored);
@@ -110,22 +113,40 @@ class Loop {
   Loop(Window& window, Session& session, Interface& interface)
       : window_(window), session_(session), interface_(interface), renderer_(640, 360) {}
 
-  void go() {
+  // Until the window is closed (true), or the driver has lost what it held (false): a new window can go on.
+  bool go() {
     set_style(interface_.dark(), interface_.scale());
     glfwSetWindowUserPointer(window_.handle(), &interface_);
     while (glfwWindowShouldClose(window_.handle()) == 0) {
       const double begin = seconds();
-      poll();
-      draw_water();
-      draw_interface();
-      if (const auto asked = interface_.take_requests(); !answer(asked)) break;
-      glfwSwapBuffers(window_.handle());
+      bool lost = false;
+      try {
+        if (!turn()) break;
+      } catch (const GraphicsError&) {
+        lost = glGetGraphicsResetStatus() != GL_NO_ERROR;
+        if (!lost) throw;
+      }
+      if (lost || glGetGraphicsResetStatus() != GL_NO_ERROR) {
+        if (recorder_.running()) abandon_recording();
+        return false;
+      }
       wait(begin);
     }
     if (recorder_.running()) recorder_.finish();
+    return true;
   }
 
  private:
+  // One picture of the window; false where it is to close.
+  bool turn() {
+    poll();
+    draw_water();
+    draw_interface();
+    if (!answer(interface_.take_requests())) return false;
+    glfwSwapBuffers(window_.handle());
+    return true;
+  }
+
   bool playing() const { return interface_.status().state == RunState::playing; }
   bool touched() const { return seconds() - last_input_ < busy_after_input; }
 
@@ -155,19 +176,23 @@ class Loop {
     if (!recorder_.running()) return;
     try {
       for (const auto& frame : recorded) recorder_.add(*interface_.cut_open(frame), interface_.view());
-      if (interface_.status().scene_number != filmed_scene_) end_film();
+      if (interface_.status().scene_number != recorded_scene_) end_recording();
     } catch (const std::exception& error) {
-      session_.record(0);
-      recorder_.abandon();
+      abandon_recording();
       interface_.say(error.what(), true);
     }
   }
 
-  void end_film() {
+  void abandon_recording() {
+    session_.record(0);
+    recorder_.abandon();
+  }
+
+  void end_recording() {
     session_.record(0);
     const bool wrote = recorder_.finish();
-    interface_.say(wrote ? "Wrote " + recorder_.file().string()
-                         : "The film ended before its first frame: nothing written");
+    interface_.say(wrote ? "Wrote " + recorder_.target().string()
+                         : "The recording ended before its first frame: nothing written");
   }
 
   // The newest state, so often that drawing takes its share of the time and no more. Where a picture is slow, that is
@@ -227,15 +252,14 @@ class Loop {
     try {
       if (asked.screenshot) save_picture(asked.with_interface);
       if (asked.start_recording && !recorder_.running()) {
-        filmed_scene_ = interface_.status().scene_number;
+        recorded_scene_ = interface_.status().scene_number;
         const auto [width, height] = interface_.picture_size();
-        recorder_.start(interface_.new_file("film", "mp4"), width, height);
+        const auto target = asked.as_frames ? interface_.new_file("frames", "") : interface_.new_file("film", "mp4");
+        recorder_.start(target, width, height);
         session_.record(Recorder::fps);
-        interface_.say("Filming; press End film to finish");
+        interface_.say("Recording " + target.string() + " while the water runs; press End recording to finish");
       }
-      if (asked.stop_recording && recorder_.running()) {
-        end_film();
-      }
+      if (asked.stop_recording && recorder_.running()) end_recording();
     } catch (const std::exception& error) {
       interface_.say(error.what(), true);
     }
@@ -258,7 +282,7 @@ class Loop {
   Interface& interface_;
   Renderer renderer_;
   Recorder recorder_;
-  std::int64_t filmed_scene_ = 0;
+  std::int64_t recorded_scene_ = 0;
   std::uint64_t drawn_version_ = 0;
   double drawn_at_ = 0, draw_seconds_ = 0, water_due_ = 0, last_input_ = 0;
   bool have_picture_ = false, is_draft_ = false, slow_ = false;
@@ -274,15 +298,29 @@ int gui_command(const RunOptions& options) {
   changed.scene = own_options.scene;
   const Scene scene = scene_from(changed), own = scene_from(own_options);
   check_resolution(scene);
-  Window window;
+  auto window = std::make_unique<Window>();
   Session session(options.threads);
   Interface::Settings settings;
   settings.assets = assets_folder();
-  settings.scale = window.scale();
+  settings.scale = window->scale();
   settings.seed = options.seed;
   Interface interface(session, settings);
   interface.open(changed.scene, scene, own);
-  Loop(window, session, interface).go();
+  for (int losses = 0; !Loop(*window, session, interface).go();) {
+    window.reset();
+    try {
+      if (++losses == most_losses) throw GraphicsError("the graphics driver was reset again and again");
+      window = std::make_unique<Window>();
+    } catch (const GraphicsError& error) {
+      const std::string state = interface.new_file("checkpoint", "curlew").string();
+      session.save_checkpoint(state);
+      session.finish_tasks();
+      throw GraphicsError(std::string(error.what()) + "; the run's state is kept: curlew run --resume " + state);
+    }
+    constexpr const char* news = "The graphics driver was reset: the window is new, the run is the same";
+    interface.say(news, true);
+    std::fprintf(stderr, "%s\n", news);
+  }
   return 0;
 }
 

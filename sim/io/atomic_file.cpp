@@ -57,11 +57,11 @@ int write_all(int file, std::span<const std::byte> bytes) {
 std::string write_error(const std::string& path, int error) {
   const std::string sentence = "cannot write " + path + ": ";
   if (const std::string file = file_among_parents(path); !file.empty()) {
-    return sentence + file + " is a file, not a folder; choose another --out";
+    return sentence + file + " is a file, not a folder; choose another folder";
   }
   const bool full = error == ENOSPC || error == EDQUOT;
   return sentence + std::generic_category().message(error) + (full ? "; free some space or" : ";") +
-         " choose another --out";
+         " choose another folder";
 }
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
@@ -70,7 +70,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   const fs::file_status status = fs::symlink_status(path_, error);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_symlink(status)) {
     throw InputError("cannot write " + path_ + ": it is " +
-                     (fs::is_directory(status) ? "a folder" : "not a regular file") + "; choose another --out");
+                     (fs::is_directory(status) ? "a folder" : "not a regular file") + "; choose another folder");
   }
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, error);
   if (error) throw InputError(write_error(path_, error.value()));

@@ -44,7 +44,7 @@ inline constexpr std::string_view unfinished_suffix = ".unfinished";
 // bytes may be in the file.
 int write_all(int file, std::span<const std::byte> bytes);
 
-// "cannot write out/stats.csv: No space left on device; free some space or choose another --out".
+// "cannot write out/stats.csv: No space left on device; free some space or choose another folder".
 std::string write_error(const std::string& path, int error);
 
 }  // namespace curlew

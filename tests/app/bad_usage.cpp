@@ -130,9 +130,9 @@ const std::vector<Row> places = {
     {"run dam_break --out ''", "--out is empty, expected a path"},
     {"run dam_break --out file.txt", "cannot use file.txt as the folder of a run: it is a file; choose another --out"},
     {"run dam_break --out file.txt/new",
-     "cannot write file.txt/new/run.json: file.txt is a file, not a folder; choose another --out"},
+     "cannot write file.txt/new/run.json: file.txt is a file, not a folder; choose another folder"},
     {"run dam_break --out /proc/new",
-     "cannot write /proc/new/run.json: No such file or directory; choose another --out"},
+     "cannot write /proc/new/run.json: No such file or directory; choose another folder"},
     {"run dam_break --out done", "done holds a finished run; choose another --out or give --overwrite"},
     {"run dam_break --out half",
      "half holds files of an unfinished run (half/stats.csv); choose another --out or give --overwrite"},
@@ -347,7 +347,7 @@ TEST_CASE("names with line breaks and odd bytes give one line") {
   check_refused(folder, {"run", "dam_break", "--set", "a\r\nb\x1b[31m"},
                 {"", R"(--set is "a??b?[31m", expected key=value such as viscosity.nu=0.01)"});
   check_refused(folder, {"run", "dam_break", "--out", "file.txt/\nnew"},
-                {"", "cannot write file.txt/?new/run.json: file.txt is a file, not a folder; choose another --out"});
+                {"", "cannot write file.txt/?new/run.json: file.txt is a file, not a folder; choose another folder"});
   check_refused(
       folder, {"run", "dam_break", "--particles", std::string(100000, '9')},
       {"", "--particles is \"" + std::string(40, '9') + "...\", expected a number such as 24389, 24k, 1.2M or 1e5"});
@@ -373,11 +373,11 @@ TEST_CASE("a disk that fills up gives a sentence and leaves no half file") {
   };
   // `ulimit -f` counts kilobytes here, and stands for the size of a disk.
   const std::vector<Case> cases = {
-      {"", "1", "cannot write new/run.json: File too large; choose another --out"},
-      {"--particles-out vtk", "8", "cannot write new/particles/000000.vtk: File too large; choose another --out"},
+      {"", "1", "cannot write new/run.json: File too large; choose another folder"},
+      {"--particles-out vtk", "8", "cannot write new/particles/000000.vtk: File too large; choose another folder"},
       {"--frames --size 160x90", "8", "cannot write new/frames/000000.png: File too large"},
       {"--checkpoint-every 0.001", "8",
-       "cannot write new/checkpoints/000001.curlew: File too large; choose another --out"},
+       "cannot write new/checkpoints/000001.curlew: File too large; choose another folder"},
   };
   for (const auto& [options, kilobytes, sentence] : cases) {
     const TemporaryFolder folder;

@@ -156,6 +156,10 @@ TEST_CASE("pictures and films are asked for, checkpoints, scenes and plots are w
   CHECK(desk.requests.with_interface);
   desk.click("Film");
   CHECK(desk.requests.start_recording);
+  CHECK(!desk.requests.as_frames);
+  desk.click("Frames");
+  CHECK(desk.requests.start_recording);
+  CHECK(desk.requests.as_frames);
 
   desk.click("Checkpoint");
   desk.settle();
@@ -352,8 +356,9 @@ TEST_CASE("places of the widgets", "[.places]") {
   desk.draw();
   desk.click("scene");
   desk.draw();
-  for (const char* widget : {"scene", "play", "step", "reset", "Picture", "Window", "Film", "Checkpoint",
-                             "viscosity.nu", "Energy.csv", "picture", "scene free_fall"}) {
+  for (const char* widget :
+       {"scene", "play", "step", "reset", "Picture", "Window", "Film", "Checkpoint", "Frames", "show plots", "time.cfl",
+        "viscosity.nu", "Energy.csv", "Time step.csv", "picture", "scene free_fall"}) {
     const auto box = desk.interface().place(widget);
     std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
   }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # A real window on a virtual screen: xdotool moves mouse and keys as a person would, and files say what came of it.
-# Usage: real_window.sh CURLEW GUI_TESTS. Exit code 77: xvfb or xdotool is missing, nothing was tested.
+# Usage: real_window.sh CURLEW GUI_TESTS RESET_ONCE. Exit code 77: xvfb or xdotool is missing, nothing was tested.
 set -euo pipefail
-curlew=$1 gui_tests=$2
+curlew=$1 gui_tests=$2 reset_once=$3
 for tool in Xvfb xdotool; do
   command -v $tool >/dev/null || {
     echo "no $tool here: not tested"
@@ -34,9 +34,11 @@ at() {
     widget == name { printf "%d %d\n", $2 + share * ($4 - $2), ($3 + $5) / 2; found = 1 }
     END { exit !found }' <<<"$places"
 }
-# shellcheck disable=SC2046
 click() {
-  xdotool mousemove $(at "$1") sleep 0.4 mousedown 1 sleep 0.3 mouseup 1 sleep 0.5
+  local place
+  place=$(at "$1") || fail "no widget $1"
+  # shellcheck disable=SC2086
+  xdotool mousemove $place sleep 0.4 mousedown 1 sleep 0.3 mouseup 1 sleep 0.5
 }
 # wait_for FILE: the first file of that pattern, within 20 s.
 wait_for() {
@@ -51,7 +53,7 @@ wait_for() {
 for display in $(seq 90 120); do
   [[ ! -e /tmp/.X$display-lock ]] && break
 done
-Xvfb ":$display" -screen 0 1280x720x24 -nolisten tcp >/dev/null 2>&1 &
+Xvfb ":$display" -screen 0 1280x720x24 -nolisten tcp -noreset >/dev/null 2>&1 &
 screen=$!
 export DISPLAY=:$display
 for _ in $(seq 50); do
@@ -60,14 +62,18 @@ for _ in $(seq 50); do
 done
 
 cd "$folder"
-"$curlew" gui dam_break_2d >"$folder/window.log" 2>&1 &
+CURLEW_RESET_FILE=$folder/reset LD_PRELOAD=$reset_once "$curlew" gui dam_break_2d >"$folder/window.log" 2>&1 &
 window=$!
-for _ in $(seq 100); do
-  id=$(xdotool search --name '^Curlew$' 2>/dev/null | head -n 1) && [[ -n $id ]] && break
-  sleep 0.2
-done
-[[ -n ${id:-} ]] || fail "no window came"
-xdotool windowfocus "$id"
+focus_window() {
+  local id
+  for _ in $(seq 100); do
+    id=$(xdotool search --name '^Curlew$' 2>/dev/null | head -n 1) && [[ -n $id ]] && break
+    sleep 0.2
+  done
+  [[ -n $id ]] || fail "no window came"
+  xdotool windowfocus "$id"
+}
+focus_window
 sleep 2
 
 # A slider that is dragged reaches the solver: the checkpoint of its state says so.
@@ -86,6 +92,17 @@ click Energy.csv
 rows=$(wc -l <"$(wait_for 'out/dam_break_2d/energy_000.csv')")
 [[ $rows -gt 10 ]] || fail "only $rows rows after two seconds of playing"
 
+# What a slider does to a run is in its figures: dt falls with the Courant number, whose slider lies below the plots.
+click 'show plots'
+# shellcheck disable=SC2046
+xdotool mousemove $(at time.cfl 0.4) sleep 0.4 mousedown 1 sleep 0.3 mousemove $(at time.cfl 0.02) sleep 0.4 mouseup 1 sleep 0.5
+click step
+click 'show plots'
+click 'Time step.csv'
+steps=$(wait_for 'out/dam_break_2d/time_step_000.csv')
+awk -F, '{ before = last; last = $3 } END { exit !(last < 0.5 * before) }' "$steps" ||
+  fail "dt does not follow time.cfl: $(tail -n 2 "$steps")"
+
 # Pictures of the water and of the window.
 click Picture
 wait_for 'out/dam_break_2d/picture_000.png' >/dev/null
@@ -102,6 +119,23 @@ if command -v ffprobe >/dev/null; then
   [[ $frames -gt 5 ]] || fail "the film has $frames frames"
 fi
 
+# The same as pictures.
+click Frames
+xdotool key space sleep 2 key space sleep 0.5
+click Film
+wait_for 'out/dam_break_2d/frames_000/000001.png' >/dev/null
+
+# The driver loses what it held: a new window comes, and the run is the same.
+touch reset
+for _ in $(seq 50); do
+  grep -q "driver was reset" window.log && break
+  sleep 0.2
+done
+grep -q "driver was reset" window.log || fail "nobody noticed that the driver was reset"
+sleep 1
+focus_window
+sleep 1
+
 # From the start, and to the same bits as without a window.
 click reset
 sleep 1
@@ -110,7 +144,8 @@ click Checkpoint
 state=$(wait_for 'out/dam_break_2d/checkpoint_001.curlew')
 "$curlew" run --resume "$state" --steps 5 --out a --quiet
 nu=$(grep -a -o '"viscosity.nu": *[0-9.e-]*' "$state" | grep -o '[0-9.e-]*$')
-"$curlew" run dam_break_2d --set viscosity.nu="$nu" --steps 5 --out b --quiet
+cfl=$(grep -a -o '"time.cfl": *[0-9.e-]*' "$state" | grep -o '[0-9.e-]*$')
+"$curlew" run dam_break_2d --set viscosity.nu="$nu" --set time.cfl="$cfl" --steps 5 --out b --quiet
 hash_of() { tail -n 1 "$1/stats.csv" | sed 's/.*,//'; }
 [[ -n $(hash_of a) && $(hash_of a) == "$(hash_of b)" ]] || fail "the window's run ends with another hash: $(hash_of a) $(hash_of b)"
 

@@ -65,7 +65,7 @@ TEST_CASE("a full disk is an error and leaves nothing", "[io]") {
     for (int i = 0; i < 100; ++i) file.write(std::string(5000, 'x'));
     file.commit();
   });
-  CHECK(message == "cannot write " + path + ": File too large; choose another --out");
+  CHECK(message == "cannot write " + path + ": File too large; choose another folder");
   CHECK(folder.contents().empty());
 
   SECTION("found only when the last of it is flushed") {
@@ -83,7 +83,7 @@ TEST_CASE("a full disk is an error and leaves nothing", "[io]") {
     CHECK(write_all(full, std::as_bytes(std::span(path))) == ENOSPC);
     ::close(full);
     CHECK(write_error("out/x.vtk", ENOSPC) ==
-          "cannot write out/x.vtk: No space left on device; free some space or choose another --out");
+          "cannot write out/x.vtk: No space left on device; free some space or choose another folder");
   }
 }
 
@@ -94,10 +94,10 @@ TEST_CASE("files that cannot be written say why", "[io]") {
   const auto message = [](const std::string& path) { return input_error([&] { AtomicFile file(path); }); };
 
   CHECK(message(folder / "file/x.vtk") == "cannot write " + (folder / "file/x.vtk") + ": " + (folder / "file") +
-                                              " is a file, not a folder; choose another --out");
-  CHECK(message(folder / "folder") == "cannot write " + (folder / "folder") + ": it is a folder; choose another --out");
-  CHECK(message("/dev/null") == "cannot write /dev/null: it is not a regular file; choose another --out");
-  CHECK(message("/proc/x.vtk") == "cannot write /proc/x.vtk: No such file or directory; choose another --out");
+                                              " is a file, not a folder; choose another folder");
+  CHECK(message(folder / "folder") == "cannot write " + (folder / "folder") + ": it is a folder; choose another folder");
+  CHECK(message("/dev/null") == "cannot write /dev/null: it is not a regular file; choose another folder");
+  CHECK(message("/proc/x.vtk") == "cannot write /proc/x.vtk: No such file or directory; choose another folder");
   CHECK(folder.contents() == Names{"file", "folder"});
   CHECK(file_text(folder / "file") == "kept");
 }
@@ -118,8 +118,8 @@ TEST_CASE("a run folder that cannot serve is an error", "[io]") {
   CHECK(message(folder / "file") ==
         "cannot use " + (folder / "file") + " as the folder of a run: it is a file; choose another --out");
   CHECK(message(folder / "file/out") == "cannot write " + (folder / "file/out/run.json") + ": " + (folder / "file") +
-                                            " is a file, not a folder; choose another --out");
-  CHECK(message("/proc/out") == "cannot write /proc/out/run.json: No such file or directory; choose another --out");
+                                            " is a file, not a folder; choose another folder");
+  CHECK(message("/proc/out") == "cannot write /proc/out/run.json: No such file or directory; choose another folder");
 }
 
 TEST_CASE("a run is not overwritten unless asked for, and nothing else ever", "[io]") {

@@ -94,7 +94,7 @@ TEST_CASE("a checkpoint that cannot be written leaves the old one", "[io][checkp
   CHECK(input_error([&] {
           const FileSizeLimit limit(100000);
           write_checkpoint(path, sample_info(), sample_fields(20000));
-        }) == "cannot write " + path + ": File too large; choose another --out");
+        }) == "cannot write " + path + ": File too large; choose another folder");
   CHECK(file_text(path) == before);
   CHECK(folder.contents() == std::vector<std::string>{"a.curlew"});
 }

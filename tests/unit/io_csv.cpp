@@ -104,19 +104,19 @@ TEST_CASE("a full disk leaves whole lines", "[io][csv]") {
   CHECK(input_error([&] {
           const FileSizeLimit limit(before.size() + 3);
           add_row(csv, 2);
-        }) == "cannot write " + path + ": File too large; choose another --out");
+        }) == "cannot write " + path + ": File too large; choose another folder");
   CHECK(file_text(path) == before);
   add_row(csv, 2);  // space was made
   CHECK(file_text(path) == before + "2,0.1,2\n");
 
   CHECK(input_error([] { CsvWriter("/dev/full", columns); }) ==
-        "cannot write /dev/full: No space left on device; free some space or choose another --out");
+        "cannot write /dev/full: No space left on device; free some space or choose another folder");
   CHECK(std::filesystem::exists("/dev/full"));
   CHECK(input_error([&] {
           const FileSizeLimit limit(5);
           CsvWriter(folder / "new.csv", columns);
-        }) == "cannot write " + (folder / "new.csv") + ": File too large; choose another --out");
+        }) == "cannot write " + (folder / "new.csv") + ": File too large; choose another folder");
   CHECK_FALSE(std::filesystem::exists(folder / "new.csv"));
   CHECK(input_error([&] { CsvWriter(path + "/a.csv", columns); }) ==
-        "cannot write " + path + "/a.csv: " + path + " is a file, not a folder; choose another --out");
+        "cannot write " + path + "/a.csv: " + path + " is a file, not a folder; choose another folder");
 }

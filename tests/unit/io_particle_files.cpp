@@ -201,7 +201,7 @@ TEST_CASE("particle files that cannot be written leave nothing", "[io][particles
     CHECK(input_error([&] {
             const FileSizeLimit limit(1 << 19);
             write(path, sample.view());
-          }) == "cannot write " + path + ": File too large; choose another --out");
+          }) == "cannot write " + path + ": File too large; choose another folder");
     CHECK(folder.contents().empty());
     ParticleExport uneven = sample.view();
     uneven.density = uneven.density.first(10);
