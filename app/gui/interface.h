@@ -96,8 +96,10 @@ class Interface {
   // The scene from the start, with the parameters as they are set; with another spacing where a number is given.
   void lay_out_again(std::optional<double> particles = {});
 
-  // interface.cpp: layout, tool bar, picture, shortcuts
+  // interface.cpp: layout, picture, shortcuts; toolbar.cpp; notices.cpp
   void draw_toolbar(float height);
+  void draw_scene_choice(const SceneInfo& info);
+  int toolbar_rows(float width) const;
   void draw_picture(unsigned picture, std::array<float, 4> box);
   void draw_status(float height);
   void draw_help();

@@ -26,6 +26,9 @@ std::string label_of(const ParameterRow& row) {
   return label;
 }
 
+// In a narrow panel the names need the room.
+float slider_width() { return std::min(9.5f * ImGui::GetFontSize(), 0.3f * ImGui::GetContentRegionAvail().x); }
+
 void tool_tip(const ParameterRow& row) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
@@ -93,7 +96,7 @@ void Interface::draw_parameter(const ParameterRow& row) {
   double value = held_ == &row ? held_value_ : row.get(scene_.parameters);
   const bool changed_from_own = row.get(scene_.parameters) != own;
   ImGui::PushID(row.key.c_str());
-  ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(slider_width());
   const bool touched = edit(row, value);
   const bool released = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
   const bool instant = row.type == ParameterRow::Type::flag || row.type == ParameterRow::Type::choice;
@@ -180,7 +183,7 @@ void Interface::draw_turbulence() {
     double zero = 0;
     const double low = 0, high = 1;
     ImGui::BeginDisabled();
-    ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(slider_width());
     ImGui::SliderScalar((std::string("##") + place.name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
@@ -192,7 +195,7 @@ void Interface::draw_turbulence() {
 }
 
 void Interface::draw_resolution() {
-  ImGui::SetNextItemWidth(9.5f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(slider_width());
   ImGui::InputInt("particles", &wanted_particles_, 0, 0);
   mark("particles");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Lays the scene out anew with the spacing that comes nearest.");
@@ -236,11 +239,12 @@ void Interface::draw_files() {
   if (button("Load", "Open the scene file named above", file_[0] != 0)) open(file_);
   ImGui::SameLine();
   if (button("Save", "Save the scene with these parameters, this camera and look")) save_scene();
-  ImGui::SameLine();
+  same_line_if_fits("Copy command");
   if (button("Copy command", "Copy the command line that runs this scene with these parameters without a window")) {
     ImGui::SetClipboardText(command_line().c_str());
     say("Copied: " + command_line());
   }
+  same_line_if_fits("Checkpoint");
   if (button("Checkpoint", "Save the state; `curlew run --resume` goes on from it with the same bits")) {
     session_.save_checkpoint(new_file("checkpoint", "curlew").string());
   }
@@ -262,8 +266,12 @@ void Interface::draw_parameters() {
     }
     mark("Apply waiting");
   }
-  if (ImGui::CollapsingHeader("Scene file", ImGuiTreeNodeFlags_DefaultOpen)) draw_files();
-  if (ImGui::CollapsingHeader("Turbulence", ImGuiTreeNodeFlags_DefaultOpen)) draw_turbulence();
+  const bool files = ImGui::CollapsingHeader("Scene file", ImGuiTreeNodeFlags_DefaultOpen);
+  mark("Scene file");
+  if (files) draw_files();
+  const bool turbulence = ImGui::CollapsingHeader("Turbulence", ImGuiTreeNodeFlags_DefaultOpen);
+  mark("Turbulence");
+  if (turbulence) draw_turbulence();
   std::string heading;
   bool open = false;
   for (const ParameterRow& row : parameter_table()) {

@@ -136,15 +136,18 @@ void draw_values_under_mouse(ImDrawList& list, const Plot& plot, const Axes& axe
 
 namespace {
 
-void draw_legend(ImDrawList& list, const Plot& plot, ImVec2 at, float width) {
-  const float line = ImGui::GetTextLineHeight(), right = at.x + width;
-  for (std::size_t k = 0; k < plot.series.size() && plot.series.size() > 1; ++k) {
+// Returns the height it took.
+float draw_legend(ImDrawList& list, const Plot& plot, ImVec2 at, float width) {
+  if (plot.series.size() < 2) return 0;
+  const float line = ImGui::GetTextLineHeight(), left = at.x, top = at.y;
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const float wide = ImGui::CalcTextSize(plot.series[k].name.c_str()).x;
-    if (at.x + 0.8f * line + wide > right) break;
+    if (at.x > left && at.x + 0.8f * line + wide > left + width) at = {left, at.y + line};
     list.AddLine({at.x, at.y + 0.55f * line}, {at.x + 0.5f * line, at.y + 0.55f * line}, colour_of(k), 2);
     list.AddText({at.x + 0.7f * line, at.y}, ImGui::GetColorU32(ImGuiCol_Text, 0.8f), plot.series[k].name.c_str());
     at.x += wide + 1.3f * line;
   }
+  return at.y + line - top;
 }
 
 }  // namespace
@@ -155,12 +158,12 @@ void draw_plot(const Plot& plot, std::span<const Sample> samples, float width, f
   const float line = ImGui::GetTextLineHeight();
   const std::string title = plot.title + (plot.unit.empty() ? "" : " (" + plot.unit + ")");
   list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), title.c_str());
-  draw_legend(list, plot, {corner.x, corner.y + 1.2f * line}, width);
+  const float legend = draw_legend(list, plot, {corner.x, corner.y + 1.2f * line}, width);
   ImGui::InvisibleButton(plot.title.c_str(), {std::max(1.0f, width), std::max(1.0f, height)});
   const bool hovered = ImGui::IsItemHovered();
   const auto [y0, y1] = value_range(plot, samples);
   const double t0 = samples.empty() ? 0 : samples.front().time, t1 = samples.empty() ? 1 : samples.back().time;
-  const Axes axes{{corner.x + 3.9f * line, corner.y + (plot.series.size() > 1 ? 2.6f : 1.5f) * line},
+  const Axes axes{{corner.x + 3.9f * line, corner.y + 1.6f * line + legend},
                   {corner.x + width - 0.5f * line, corner.y + height - 1.5f * line},
                   t0,
                   t1 > t0 ? t1 : t0 + 1,

@@ -68,15 +68,18 @@ void Interface::draw_plots() {
       }
     }
   }
-  const ImVec2 space = ImGui::GetContentRegionAvail();
+  const ImVec2 all = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const auto number = static_cast<float>(plots.size());
-  const float width = (space.x - gap * (number - 1)) / number;
+  const float width = std::max((all.x - gap * (number - 1)) / number, 14 * ImGui::GetFontSize());
+  ImGui::BeginChild("plots", all, false, ImGuiWindowFlags_HorizontalScrollbar);
+  const float height = ImGui::GetContentRegionAvail().y;
   for (const Plot& plot : plots) {
     if (&plot != plots.data()) ImGui::SameLine();
-    draw_plot(plot, samples, width, space.y);
+    draw_plot(plot, samples, width, height);
     mark("plot " + plot.title);
   }
+  ImGui::EndChild();
 }
 
 }  // namespace curlew

@@ -26,7 +26,8 @@ void load_font(double scale) {
   fonts.Clear();
   has_greek = false;
   // Latin, Greek, subscripts, and the few signs that we use.
-  static const ImWchar ranges[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2013, 0x2026, 0x2080, 0x2089, 0x25A0, 0x25FF, 0};
+  static const ImWchar ranges[] = {0x20,   0xFF,   0x370,  0x3FF,  0x2013, 0x2026, 0x1D68,
+                                   0x1D68, 0x2080, 0x209C, 0x25A0, 0x25FF, 0};
   for (const char* file : font_files) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) continue;
@@ -60,10 +61,13 @@ void set_style(bool dark, double scale) {
   style.ScrollbarSize = 12;
   style.Colors[ImGuiCol_WindowBg] = dark ? ImVec4(0.11f, 0.12f, 0.14f, 1) : ImVec4(0.955f, 0.96f, 0.97f, 1);
   style.Colors[ImGuiCol_PopupBg] = dark ? ImVec4(0.15f, 0.16f, 0.19f, 1) : ImVec4(1, 1, 1, 1);
+  style.GrabMinSize = 8;
+  // The number under a slider's grab stays readable.
+  const float see_through = 0.55f;
   const ImVec4 accent = dark ? ImVec4(0.26f, 0.55f, 0.82f, 1) : ImVec4(0.16f, 0.46f, 0.74f, 1);
-  for (const ImGuiCol colour : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_CheckMark}) {
-    style.Colors[colour] = accent;
-  }
+  style.Colors[ImGuiCol_CheckMark] = style.Colors[ImGuiCol_SliderGrabActive] = style.Colors[ImGuiCol_SliderGrab] =
+      accent;
+  style.Colors[ImGuiCol_SliderGrab].w = style.Colors[ImGuiCol_SliderGrabActive].w = see_through;
   style.ScaleAllSizes(static_cast<float>(scale));
   ImGui::GetStyle() = style;
   static double loaded = 0;
@@ -75,6 +79,13 @@ void begin_panel(const char* name, float x, float y, float width, float height, 
   ImGui::SetNextWindowPos({x, y});
   ImGui::SetNextWindowSize({width, height});
   ImGui::Begin(name, nullptr, panel_flags | flags);
+}
+
+void same_line_if_fits(const char* label) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float wide = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + wide < end) ImGui::SameLine();
 }
 
 std::string written_symbol(const std::string& symbol) {
@@ -96,7 +107,10 @@ std::string written_symbol(const std::string& symbol) {
                                       "\u2085", "\u2086", "\u2087", "\u2088", "\u2089"};
     return text + subscripts[digits.find(below)];
   }
-  return text + "_" + below;
+  // The few letters that have a small form below the line.
+  static const std::map<std::string, std::string> subscripts = {{"t", "\u209c"}, {"rho", "\u1d68"}};
+  const auto small = subscripts.find(below);
+  return text + (small == subscripts.end() ? "_" + below : small->second);
 }
 
 std::string written_unit(const std::string& unit) {

@@ -6,22 +6,37 @@
 
 namespace curlew {
 
+// One scene of the list: its name, and beneath it what it shows.
+void Interface::draw_scene_choice(const SceneInfo& info) {
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float line = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
+  const float about = ImGui::CalcTextSize(info.about.c_str(), nullptr, false, width).y;
+  if (ImGui::Selectable(("##" + info.name).c_str(), info.name == scene_name_, 0, {0, 1.2f * line + about})) {
+    open(info.name);
+  }
+  mark("scene " + info.name);
+  const ImVec2 below = ImGui::GetCursorPos();
+  ImGui::SetCursorPos(at);
+  ImGui::TextUnformatted(info.name.c_str());
+  ImGui::SetCursorPos({at.x, at.y + 1.1f * line});
+  ImGui::PushTextWrapPos(at.x + width);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextUnformatted(info.about.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPos(below);
+}
+
+// How many rows of buttons a window of this width needs.
+int Interface::toolbar_rows(float width) const { return width < 64 * ImGui::GetFontSize() ? 2 : 1; }
+
 void Interface::draw_toolbar(float height) {
   begin_panel("Tools", 0, 0, ImGui::GetIO().DisplaySize.x, height, ImGuiWindowFlags_NoScrollbar);
   ImGui::SetNextItemWidth(11 * ImGui::GetFontSize());
-  if (ImGui::BeginCombo("##scene", scene_.name.empty() ? "choose a scene" : scene_.name.c_str(),
-                        ImGuiComboFlags_HeightLarge)) {
-    for (const SceneInfo& info : bundled_) {
-      if (ImGui::Selectable(info.name.c_str(), info.name == scene_name_)) open(info.name);
-      mark("scene " + info.name);
-      if (ImGui::IsItemHovered()) {
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
-        ImGui::TextUnformatted(info.about.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-      }
-    }
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowSizeConstraints({32 * em, 0}, {32 * em, ImGui::GetIO().DisplaySize.y - height});
+  if (ImGui::BeginCombo("##scene", scene_.name.empty() ? "choose a scene" : scene_.name.c_str())) {
+    for (const SceneInfo& info : bundled_) draw_scene_choice(info);
     ImGui::EndCombo();
   }
   mark("scene");
@@ -63,7 +78,7 @@ void Interface::draw_toolbar(float height) {
       requests_.start_recording = requests_.as_frames = true;
     }
   }
-  ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+  if (toolbar_rows(ImGui::GetIO().DisplaySize.x) == 1) ImGui::SameLine(0, 2 * ImGui::GetFontSize());
   ImGui::Checkbox("parameters", &show_parameters_);
   mark("show parameters");
   ImGui::SameLine();

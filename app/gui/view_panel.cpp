@@ -31,7 +31,7 @@ bool choose(const char* label, std::string& chosen, const Names& names, const Ma
 }  // namespace
 
 void Interface::draw_view() {
-  const float wide = 8.0f * ImGui::GetFontSize();
+  const float wide = std::min(8.0f * ImGui::GetFontSize(), 0.5f * ImGui::GetContentRegionAvail().x);
   bool changed = false;
   const auto marking = [this](const std::string& widget) { mark(widget); };
   if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -68,10 +68,11 @@ void Interface::draw_view() {
   if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) {
     changed |= ImGui::Checkbox("bodies", &view_.show_bodies);
     mark("bodies");
-    ImGui::SameLine();
+    same_line_if_fits("walls [ ]");
     changed |= ImGui::Checkbox("walls", &view_.look.show_walls);
-    ImGui::SameLine();
+    same_line_if_fits("floor [ ]");
     changed |= ImGui::Checkbox("floor", &view_.look.show_floor);
+    same_line_if_fits("legend [ ]");
     changed |= ImGui::Checkbox("legend", &view_.look.show_legend);
     mark("legend");
     ImGui::SetNextItemWidth(wide);
@@ -123,9 +124,9 @@ void Interface::draw_view() {
     mark("dark");
     static constexpr double scales[] = {1, 1.25, 1.5, 2};
     for (const double scale : scales) {
-      ImGui::SameLine();
       char label[16];
       std::snprintf(label, sizeof label, "%.3gx", scale);
+      same_line_if_fits(label);
       if (button(label, "Size of text and widgets", scale_ != scale)) {
         scale_ = scale;
         requests_.restyle = true;

@@ -281,6 +281,33 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
   CHECK(desk.interface().picture_size()[0] == static_cast<int>(1280 * scale));
 }
 
+TEST_CASE("no name of a parameter is cut off, in any group, in small and large windows") {
+  const auto& [width, height, scale] =
+      GENERATE(std::tuple{1280, 720, 1.0}, std::tuple{1280, 720, 1.25}, std::tuple{2560, 1440, 2.0});
+  const TemporaryFolder folder;
+  Desk desk(folder.path(), width, height, scale);
+  desk.open(small);
+  for (const char* group : {"Scene file", "group viscosity", "group micropolar", "group time", "Turbulence"}) {
+    desk.click(group);
+  }
+  // Groups are open one at a time: all of their rows are in the window then.
+  std::vector<std::string> groups;
+  for (const ParameterRow& row : parameter_table()) {
+    if (groups.empty() || groups.back() != "group " + row.group) groups.push_back("group " + row.group);
+  }
+  for (const std::string& group : groups) {
+    desk.click(group);
+    for (const ParameterRow& row : parameter_table()) {
+      if ("group " + row.group != group) continue;
+      INFO(row.key << " at " << width << "x" << height << " and " << scale);
+      const auto label = desk.interface().place("label " + row.key), slider = desk.interface().place(row.key);
+      CHECK(label[0] >= slider[2]);
+      CHECK(label[2] <= desk.interface().place("picture")[0]);
+    }
+    desk.click(group);
+  }
+}
+
 TEST_CASE("a number that is typed counts when it is done") {
   const TemporaryFolder folder;
   Desk desk(folder.path());
@@ -361,6 +388,36 @@ TEST_CASE("places of the widgets", "[.places]") {
         "viscosity.nu", "Energy.csv", "Time step.csv", "picture", "scene free_fall"}) {
     const auto box = desk.interface().place(widget);
     std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
+  }
+}
+
+// Not a test: pictures of every group of the panels, to be looked at (CURLEW_KEEP_WINDOWS says where).
+TEST_CASE("pictures of every group", "[.panels]") {
+  const TemporaryFolder folder;
+  for (const auto& [width, height, scale] : {std::tuple{1280, 720, 1.0}, {2560, 1440, 2.0}, {1280, 720, 2.0}}) {
+    Desk desk(folder.path(), width, height, scale);
+    desk.open(small);
+    desk.click("step");
+    desk.settle();
+    const std::string suffix = "_" + std::to_string(width) + "_" + std::to_string(static_cast<int>(scale)) + "x";
+    desk.click("show plots");
+    keep(desk, "all" + suffix);
+    for (const char* group : {"Scene file", "Turbulence", "group viscosity", "group micropolar", "group time"}) {
+      desk.click(group);
+    }
+    std::set<std::string> groups;
+    for (const ParameterRow& row : parameter_table()) groups.insert("group " + row.group);
+    groups.insert({"Scene file", "Turbulence"});
+    for (const std::string& group : groups) {
+      desk.click(group);
+      keep(desk, group + suffix);
+      desk.click(group);
+    }
+    desk.click("scene");
+    keep(desk, "scenes" + suffix);
+    desk.key(256);
+    desk.click("Help");
+    keep(desk, "help" + suffix);
   }
 }
 
