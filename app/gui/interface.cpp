@@ -170,6 +170,11 @@ void Interface::update_view() {
   shown_ = cut_open(latest_);
 }
 
+void Interface::drew_water(double seconds_since_last) {
+  const double mixed = 0.7 * between_pictures_ + 0.3 * seconds_since_last;
+  between_pictures_ = between_pictures_ > 0 ? mixed : seconds_since_last;
+}
+
 std::shared_ptr<const Frame> Interface::cut_open(const std::shared_ptr<const Frame>& frame) const {
   if (!cut_) return frame;
   const Domain& domain = frame->geometry->domain;

@@ -61,7 +61,8 @@ class Interface {
   };
   Requests take_requests();
   bool dark() const { return dark_; }
-  // Of the wall time that may go into drawing while the water runs.
+  // What the window tells of its pictures of running water; and of the wall time, what may go into drawing.
+  void drew_water(double seconds_since_last);
   double drawing_share() const { return static_cast<double>(drawing_percent_) / 100; }
   double scale() const { return scale_; }
   // out/NAME/KIND_000.EXTENSION, the first number that is free; a folder where there is no extension.
@@ -170,6 +171,7 @@ class Interface {
 
   bool show_parameters_ = true, show_view_ = true, show_plots_ = true, show_help_ = false, dark_ = false;
   float drawing_percent_ = 20;
+  double between_pictures_ = 0;  // s, a running mean; 0 before there is one
   double scale_ = 1;
   std::array<int, 2> picture_size_{640, 360};
   Requests requests_;

@@ -21,11 +21,14 @@ void Interface::draw_status(float height) {
                       : status_.state == RunState::diverged ? "diverged"
                       : status_.state == RunState::paused   ? "paused"
                                                             : "no scene";
-  ImGui::Text("%s   %zu particles   t = %.3f s   step %lld   dt %.3g ms   %.3gx real time   %.3g steps/s   %.3g MB%s",
-              state, status_.particles, status_.time, static_cast<long long>(status_.step), 1e3 * status_.dt,
-              status_.state == RunState::playing ? status_.real_time_factor : 0.0,
-              status_.state == RunState::playing ? status_.steps_a_second : 0.0,
-              1e-6 * static_cast<double>(status_.solver_bytes), status_.recording ? "   recording" : "");
+  const bool playing = status_.state == RunState::playing;
+  ImGui::Text(
+      "%s   %zu particles   t = %.3f s   step %lld   dt %.3g ms   %.3gx real time   %.3g steps/s   %.2g pictures/s"
+      "   %.3g MB%s",
+      state, status_.particles, status_.time, static_cast<long long>(status_.step), 1e3 * status_.dt,
+      playing ? status_.real_time_factor : 0.0, playing ? status_.steps_a_second : 0.0,
+      playing && between_pictures_ > 0 ? 1 / between_pictures_ : 0.0, 1e-6 * static_cast<double>(status_.solver_bytes),
+      status_.recording ? "   recording" : "");
   mark("status");
   if (!message_.empty() && (message_is_error_ || ImGui::GetTime() - message_time_ < message_seconds)) {
     // Over the picture, where there is room for a whole sentence.

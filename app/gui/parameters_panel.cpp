@@ -27,7 +27,10 @@ std::string label_of(const ParameterRow& row) {
 }
 
 // In a narrow panel the names need the room.
-float slider_width() { return std::min(9.5f * ImGui::GetFontSize(), 0.3f * ImGui::GetContentRegionAvail().x); }
+float slider_width() {
+  const float em = ImGui::GetFontSize();
+  return std::clamp(ImGui::GetContentRegionAvail().x - 12.5f * em, 4 * em, 9.5f * em);
+}
 
 void tool_tip(const ParameterRow& row) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;

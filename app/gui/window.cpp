@@ -216,8 +216,10 @@ class Loop {
     } catch (const InputError& error) {
       interface_.say(error.what(), true);
     }
+    const double before = drawn_at_;
     drawn_at_ = seconds();
     draw_seconds_ = drawn_at_ - begin;
+    if (playing() && before > 0) interface_.drew_water(drawn_at_ - before);
     is_draft_ = detail == Renderer::Detail::draft;
     if (!is_draft_) slow_ = draw_seconds_ > quick;
     drawn_version_ = interface_.version();
