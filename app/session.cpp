@@ -224,7 +224,7 @@ void Session::lay_out(Scene scene, std::uint64_t seed, std::optional<double> par
   if (!newest()) return;
   std::string failure;
   try {
-    if (particles) scene = with_particles(std::move(scene), *particles);
+    if (particles) scene = with_particles(scene, *particles);
     if (!newest()) return;
     World world = make_world(scene, seed);
     if (!newest()) return;
@@ -254,6 +254,12 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
     recorded_.clear();
     parameters_ = world.scene.parameters;
     status_.particle_radius = world.scene.particle_radius;
+    status_.particles = world.count;
+    status_.step = world.step;
+    status_.time = world.time;
+    status_.dt = world.dt;
+    frame_ = nullptr;  // it shows the run before
+    frame_taken_ = true;
   }
   world_ = std::move(world);
   plan_ = std::move(plan);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -47,7 +48,7 @@ Tiles tiles_of(const View& view, double spacing, double farthest) {
 }  // namespace
 
 std::vector<std::uint32_t> in_sight(std::span<const Vec3> positions, const View& view, double spacing, int layers) {
-  layers = std::clamp(layers, 1, kMostLayers);
+  assert(layers >= 1 && layers <= kMostLayers);
   const Vec3 eye = to_float(view.position), right = to_float(view.right), up = to_float(view.up),
              forward = to_float(view.forward);
   struct Seen {
@@ -75,6 +76,7 @@ std::vector<std::uint32_t> in_sight(std::span<const Vec3> positions, const View&
                        std::clamp(s.y, -tiles.half_height, tiles.half_height));
   };
   for (const Seen& s : seen) {
+    if (positions[s.particle].w < 0.9f) continue;
     float distance = s.distance;
     for (float& nearest : tiles.nearest[clamped(s)]) {
       if (distance < nearest) std::swap(distance, nearest);

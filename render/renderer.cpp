@@ -155,7 +155,9 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail d
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_PROGRAM_POINT_SIZE);
 
-  s.upload_particles(frame, size, light, draft && !flat && radius > 0.9 * geometry.particle_radius);
+  // Small particles do not cover what lies behind them.
+  const bool covering = radius > 0.9 * geometry.particle_radius;
+  s.upload_particles(frame, size, light, draft && !flat && covering);
   s.particles.set_colours(look.colour_map, theme.water, range, coloured);
   s.solids.upload(frame.geometry);
   s.shading->begin_shadow();

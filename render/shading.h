@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/gl.h"
 
@@ -32,7 +33,7 @@ class Shading {
  private:
   void full_screen(const gl::Program& program, GLuint target, int width, int height);
 
-  int drawn(int pixels) const { return std::max(1, static_cast<int>(samples_ * pixels)); }
+  int drawn(int pixels) const { return std::max(1, static_cast<int>(std::ceil(samples_ * pixels))); }
 
   int width_, height_;
   double samples_;

@@ -6,7 +6,8 @@ flat in float opacity;
 
 layout(location = 0) out vec4 colour;
 
-// The walls are drawn over the finished picture, whose pixels are coarser than the scene's where it is supersampled.
+// The walls are drawn over the finished picture, whose pixels are coarser than the scene's where it is supersampled, and finer
+// where it is a draft.
 bool hidden() { return texelFetch(depth_map, ivec2(gl_FragCoord.xy * sampling.x), 0).r > gl_FragCoord.z; }
 
 void main() {

@@ -11,7 +11,6 @@
 #include "app/gui/style.h"
 #include "app/numbers.h"
 #include "render/colour_range.h"
-#include "sim/core/error.h"
 #include "sim/scene/reader.h"
 #include "sim/scene/resolution.h"
 
@@ -53,7 +52,11 @@ void Interface::lay_out_again(std::optional<double> particles) {
 // The scene that was asked for stands: from here on the widgets speak of it.
 void Interface::install(const Pending& next) {
   held_ = nullptr;
+  between_pictures_ = 0;
+  const Parameters set = scene_.parameters;
   scene_ = next.scene;
+  if (!next.fresh) scene_.parameters = set;  // also what was changed while it was laid out
+  session_.set_parameters(scene_.parameters);
   scene_.particle_radius = status_.particle_radius;
   own_ = next.own.parameters;
   own_radius_ = next.own.particle_radius;

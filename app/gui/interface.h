@@ -61,8 +61,9 @@ class Interface {
   };
   Requests take_requests();
   bool dark() const { return dark_; }
-  // What the window tells of its pictures of running water; and of the wall time, what may go into drawing.
+  // What the window tells of its pictures of running water.
   void drew_water(double seconds_since_last);
+  // Of the wall time, what may go into drawing while the water runs.
   double drawing_share() const { return static_cast<double>(drawing_percent_) / 100; }
   double scale() const { return scale_; }
   // out/NAME/KIND_000.EXTENSION, the first number that is free; a folder where there is no extension.
@@ -122,6 +123,7 @@ class Interface {
   void change(const Parameters& next);  // with undo
   void undo(), redo();
   void save_scene();
+  void apply();
 
   // view_panel.cpp
   void draw_view();

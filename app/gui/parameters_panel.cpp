@@ -109,7 +109,7 @@ void Interface::draw_parameter(const ParameterRow& row) {
   const std::string label = label_of(row);
   if (changed_from_own || waits(row)) {
     ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s %s", label.c_str(),
-                       waits(row) ? "(Apply)" : "*");
+                       waits(row) ? "(!)" : "*");
   } else {
     ImGui::TextUnformatted(label.c_str());
   }
@@ -203,14 +203,16 @@ void Interface::draw_resolution() {
   mark("particles");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Lays the scene out anew with the spacing that comes nearest.");
   ImGui::SameLine();
-  if (button("Apply", "Lay out the scene with this many particles and with the parameters that need it")) {
-    if (wanted_particles_ < 1) {
-      say("the number of particles has to be at least 1", true);
-    } else if (wanted_particles_ == laid_out_particles_) {
-      lay_out_again();
-    } else {
-      lay_out_again(wanted_particles_);
-    }
+  if (button("Apply", "Lay out the scene with this many particles and with the parameters that need it")) apply();
+}
+
+void Interface::apply() {
+  if (wanted_particles_ < 1) {
+    say("The number of particles has to be at least 1", true);
+  } else if (wanted_particles_ == laid_out_particles_) {
+    lay_out_again();
+  } else {
+    lay_out_again(wanted_particles_);
   }
 }
 
@@ -264,10 +266,11 @@ void Interface::draw_parameters() {
   if (waiting > 0) {
     ImGui::SameLine();
     const std::string label = "Apply " + std::to_string(waiting);
-    if (button((label + "###Apply waiting").c_str(), "Lay the scene out anew: what was changed counts from then on")) {
-      lay_out_again();
-    }
+    ImGui::PushID("waiting");
+    const bool pressed = button(label.c_str(), "Lay the scene out anew: what was changed counts from then on");
+    ImGui::PopID();
     mark("Apply waiting");
+    if (pressed) apply();
   }
   const bool files = ImGui::CollapsingHeader("Scene file", ImGuiTreeNodeFlags_DefaultOpen);
   mark("Scene file");

@@ -6,16 +6,20 @@
 namespace curlew {
 
 void Recorder::start(const std::filesystem::path& target, int width, int height) {
+  abandon();
   const bool film = target.extension() == ".mp4";
   std::filesystem::create_directories(std::filesystem::absolute(target).parent_path());
   if (film) {
     width += width % 2;  // H.264 wants even sides
     height += height % 2;
+  }
+  Renderer renderer(width, height);
+  if (film) {
     video_ = std::make_unique<VideoWriter>(target, width, height, fps);
   } else {
     pictures_ = std::make_unique<FrameWriter>();
   }
-  renderer_.emplace(width, height);
+  renderer_.emplace(std::move(renderer));
   target_ = target;
   frames_ = 0;
 }

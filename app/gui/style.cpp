@@ -81,9 +81,10 @@ void begin_panel(const char* name, float x, float y, float width, float height, 
   ImGui::Begin(name, nullptr, panel_flags | flags);
 }
 
-void same_line_if_fits(const char* label) {
+void same_line_if_fits(const char* label, bool check_box) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float wide = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float around = check_box ? ImGui::GetFrameHeight() + style.ItemInnerSpacing.x : 2 * style.FramePadding.x;
+  const float wide = ImGui::CalcTextSize(label).x + around + style.ItemSpacing.x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (ImGui::GetItemRectMax().x + wide < end) ImGui::SameLine();
 }

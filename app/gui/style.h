@@ -12,8 +12,8 @@ void set_style(bool dark, double scale);
 // Begins a window of a fixed place and size (pixels), without a title. ImGui::End() ends it.
 void begin_panel(const char* name, float x, float y, float width, float height, int flags = 0);
 
-// The next button goes beside the last where there is room for its label.
-void same_line_if_fits(const char* label);
+// The next button, or check box, goes beside the last widget where there is room for its label.
+void same_line_if_fits(const char* label, bool check_box = false);
 
 // A paper's symbol as it is written by hand: "nu" becomes the Greek letter where the font has it.
 std::string written_symbol(const std::string& symbol);

@@ -32,8 +32,8 @@ int Interface::toolbar_rows(float width) const { return width < 64 * ImGui::GetF
 
 void Interface::draw_toolbar(float height) {
   begin_panel("Tools", 0, 0, ImGui::GetIO().DisplaySize.x, height, ImGuiWindowFlags_NoScrollbar);
-  ImGui::SetNextItemWidth(11 * ImGui::GetFontSize());
   const float em = ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(11 * em);
   ImGui::SetNextWindowSizeConstraints({32 * em, 0}, {32 * em, ImGui::GetIO().DisplaySize.y - height});
   if (ImGui::BeginCombo("##scene", scene_.name.empty() ? "choose a scene" : scene_.name.c_str())) {
     for (const SceneInfo& info : bundled_) draw_scene_choice(info);
@@ -42,7 +42,7 @@ void Interface::draw_toolbar(float height) {
   mark("scene");
   if (ImGui::IsItemHovered() && !scene_.about.empty()) {
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
+    ImGui::PushTextWrapPos(28 * em);
     ImGui::TextUnformatted(scene_.about.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -51,7 +51,7 @@ void Interface::draw_toolbar(float height) {
   const auto same_size = [&](const char* label, const char* name, const char* tip, bool enabled) {
     ImGui::SameLine();
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(label, {4.2f * ImGui::GetFontSize(), 0});
+    const bool pressed = ImGui::Button(label, {4.2f * em, 0});
     ImGui::EndDisabled();
     mark(name);
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
@@ -62,7 +62,7 @@ void Interface::draw_toolbar(float height) {
   }
   if (same_size("Step", "step", "One time step (S)", there && !playing)) session_.step_once();
   if (same_size("Reset", "reset", "From the start, with the parameters as they are set (R)", there)) lay_out_again();
-  ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+  ImGui::SameLine(0, 2 * em);
   if (button("Picture", "Save the picture of the water (P)", there)) requests_.screenshot = true;
   ImGui::SameLine();
   if (button("Window", "Save a picture of the whole window (Shift-P)", there)) {
@@ -78,7 +78,7 @@ void Interface::draw_toolbar(float height) {
       requests_.start_recording = requests_.as_frames = true;
     }
   }
-  if (toolbar_rows(ImGui::GetIO().DisplaySize.x) == 1) ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+  if (toolbar_rows(ImGui::GetIO().DisplaySize.x) == 1) ImGui::SameLine(0, 2 * em);
   ImGui::Checkbox("parameters", &show_parameters_);
   mark("show parameters");
   ImGui::SameLine();

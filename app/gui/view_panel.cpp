@@ -68,11 +68,11 @@ void Interface::draw_view() {
   if (ImGui::CollapsingHeader("Shown", ImGuiTreeNodeFlags_DefaultOpen)) {
     changed |= ImGui::Checkbox("bodies", &view_.show_bodies);
     mark("bodies");
-    same_line_if_fits("walls [ ]");
+    same_line_if_fits("walls", true);
     changed |= ImGui::Checkbox("walls", &view_.look.show_walls);
-    same_line_if_fits("floor [ ]");
+    same_line_if_fits("floor", true);
     changed |= ImGui::Checkbox("floor", &view_.look.show_floor);
-    same_line_if_fits("legend [ ]");
+    same_line_if_fits("legend", true);
     changed |= ImGui::Checkbox("legend", &view_.look.show_legend);
     mark("legend");
     ImGui::SetNextItemWidth(wide);

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "app/assets.h"
 #include "app/commands.h"
@@ -36,7 +37,8 @@ double seconds() {
 
 constexpr double idle_interval = 0.2, busy_interval = 1.0 / 60;  // s, between pictures of the interface
 constexpr double busy_after_input = 0.5;                         // s
-constexpr int most_losses = 5;                                   // of the OpenGL context, before we give up
+constexpr double still_after = 0.3;                              // s without a change
+constexpr std::size_t most_losses = 5;                           // of the OpenGL context within a minute
 constexpr double quick = 1.0 / 60;  // s: what takes longer to draw is drawn as a draft while it moves
 
 void key_changed(GLFWwindow* window, int key, int, int action, int modifiers) {
@@ -57,13 +59,18 @@ class Window {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // or nobody says that it is lost
     glfwWindowHint(GLFW_SAMPLES, 0);  // the picture is smooth already, and software pays dearly
     float scale = 1, ignored = 1;
     if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &scale, &ignored);
     scale_ = std::clamp(double{scale}, 1.0, 4.0);
-    window_ =
-        glfwCreateWindow(static_cast<int>(1280 * scale_), static_cast<int>(720 * scale_), "Curlew", nullptr, nullptr);
+    for (const int robustness : {GLFW_LOSE_CONTEXT_ON_RESET, GLFW_NO_ROBUSTNESS}) {
+      // Without the first nobody says that the context is lost; not every driver has it.
+      glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robustness);
+      if (window_ == nullptr) {
+        window_ = glfwCreateWindow(static_cast<int>(1280 * scale_), static_cast<int>(720 * scale_), "Curlew", nullptr,
+                                   nullptr);
+      }
+    }
     if (window_ == nullptr) {
       const char* reason = nullptr;
       glfwGetError(&reason);
@@ -127,7 +134,7 @@ class Loop {
         if (!lost) throw;
       }
       if (lost || glGetGraphicsResetStatus() != GL_NO_ERROR) {
-        if (recorder_.running()) abandon_recording();
+        if (recorder_.running()) end_recording();
         return false;
       }
       wait(begin);
@@ -149,6 +156,10 @@ class Loop {
 
   bool playing() const { return interface_.status().state == RunState::playing; }
   bool touched() const { return seconds() - last_input_ < busy_after_input; }
+  static bool hand_is_down() {
+    const bool* down = ImGui::GetIO().MouseDown;
+    return down[0] || down[1] || down[2];
+  }
 
   // Waits for input, or for as long as the interface may stay as it is.
   void wait(double begin) {
@@ -199,18 +210,28 @@ class Loop {
   // where a processor draws it, motion is shown in drafts and what stands still in full.
   void draw_water() {
     if (!interface_.frame()) return;
-    const bool moves = playing() || touched(), is_new = drawn_version_ != interface_.version();
-    const bool draft = moves && slow_;
+    const double now = seconds();
+    const bool is_new = drawn_version_ != interface_.version();
+    if (is_new) {
+      moving_ = hand_is_down() || now - changed_at_ < still_after;
+      changed_at_ = now;
+    } else if (now - changed_at_ > still_after) {
+      moving_ = false;
+    }
+    const bool draft = slow_ && (playing() || moving_);
     if (!is_new && (draft || !is_draft_)) return;
-    if (playing() && seconds() < (touched() ? std::min(water_due_, drawn_at_ + 2 * draw_seconds_) : water_due_)) return;
+    const double due = hand_is_down() ? std::min(water_due_, drawn_at_ + 2 * draw_seconds_) : water_due_;
+    if (playing() && now < due) return;
     draw_water(draft ? Renderer::Detail::draft : Renderer::Detail::full);
   }
 
   void draw_water(Renderer::Detail detail) {
     const auto [width, height] = interface_.picture_size();
-    const double begin = seconds();
+    const bool same_size = have_picture_ && width == renderer_.width() && height == renderer_.height();
+    double begin = seconds();
     try {
       renderer_.resize(width, height);
+      begin = seconds();
       renderer_.render(*interface_.frame(), interface_.view(), detail);
       glFinish();
     } catch (const InputError& error) {
@@ -219,9 +240,11 @@ class Loop {
     const double before = drawn_at_;
     drawn_at_ = seconds();
     draw_seconds_ = drawn_at_ - begin;
-    if (playing() && before > 0) interface_.drew_water(drawn_at_ - before);
+    if (playing() && drawn_playing_) interface_.drew_water(drawn_at_ - before);
+    drawn_playing_ = playing();
+    // The first picture of a size pays for its shaders. A quick draft says that a full picture is worth another try.
     is_draft_ = detail == Renderer::Detail::draft;
-    if (!is_draft_) slow_ = draw_seconds_ > quick;
+    if (same_size) slow_ = draw_seconds_ > (is_draft_ ? quick / 4 : quick);
     drawn_version_ = interface_.version();
     have_picture_ = true;
   }
@@ -271,7 +294,7 @@ class Loop {
   void save_picture(bool with_interface) {
     if (is_draft_) {
       draw_water(Renderer::Detail::full);
-      draw_interface();
+      if (with_interface) draw_interface();
     }
     const auto file = interface_.new_file(with_interface ? "window" : "picture", "png");
     std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
@@ -286,9 +309,21 @@ class Loop {
   Recorder recorder_;
   std::int64_t recorded_scene_ = 0;
   std::uint64_t drawn_version_ = 0;
-  double drawn_at_ = 0, draw_seconds_ = 0, water_due_ = 0, last_input_ = 0;
-  bool have_picture_ = false, is_draft_ = false, slow_ = false;
+  double drawn_at_ = 0, draw_seconds_ = 0, water_due_ = 0, last_input_ = 0, changed_at_ = 0;
+  bool have_picture_ = false, is_draft_ = false, slow_ = false, moving_ = false, drawn_playing_ = false;
 };
+
+// Saves the run that its window has lost; how to go on with it, as the end of a sentence.
+std::string kept_state(Session& session, Interface& interface) {
+  const std::string state = interface.new_file("checkpoint", "curlew").string();
+  session.save_checkpoint(state);
+  session.finish_tasks();
+  if (std::filesystem::exists(state)) return "; the run's state is kept: curlew run --resume " + state;
+  for (const Message& message : session.poll().messages) {
+    if (message.error) return "; the run's state is lost: " + message.text;
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -308,22 +343,24 @@ int gui_command(const RunOptions& options) {
   settings.seed = options.seed;
   Interface interface(session, settings);
   interface.open(changed.scene, scene, own);
-  for (int losses = 0; !Loop(*window, session, interface).go();) {
-    window.reset();
+  std::vector<double> losses;  // when
+  for (;;) {
     try {
-      if (++losses == most_losses) throw GraphicsError("the graphics driver was reset again and again");
+      if (Loop(*window, session, interface).go()) return 0;
+      losses.push_back(seconds());
+      if (losses.size() >= most_losses && losses.back() - losses[losses.size() - most_losses] < 60)
+        throw GraphicsError("the graphics driver was reset again and again");
+      window.reset();
       window = std::make_unique<Window>();
     } catch (const GraphicsError& error) {
-      const std::string state = interface.new_file("checkpoint", "curlew").string();
-      session.save_checkpoint(state);
-      session.finish_tasks();
-      throw GraphicsError(std::string(error.what()) + "; the run's state is kept: curlew run --resume " + state);
+      if (losses.empty()) throw;
+      throw GraphicsError(error.what() + kept_state(session, interface));
     }
     constexpr const char* news = "The graphics driver was reset: the window is new, the run is the same";
-    interface.say(news, true);
+    interface.say(interface.message().starts_with("Wrote") ? std::string(news) + ". " + interface.message() : news,
+                  true);
     std::fprintf(stderr, "%s\n", news);
   }
-  return 0;
 }
 
 }  // namespace curlew

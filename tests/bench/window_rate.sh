@@ -34,8 +34,12 @@ for pair in $(seq "$pairs"); do
   rm -rf out
   "$build/curlew" gui dam_break --particles 20k >/dev/null 2>&1 &
   window=$!
-  sleep 4
-  xdotool windowfocus "$(xdotool search --name '^Curlew$' | head -n 1)"
+  id=
+  for _ in $(seq 100); do
+    id=$(xdotool search --name '^Curlew$' 2>/dev/null | head -n 1) && [[ -n $id ]] && break
+    sleep 0.2
+  done
+  xdotool windowfocus "$id" sleep 3
   xdotool mousemove 700 20
   begin=$(date +%s.%N)
   xdotool key space sleep "$seconds" key space
@@ -50,7 +54,8 @@ for pair in $(seq "$pairs"); do
   awk -F, -v wall="$(awk "BEGIN { print $end - $begin }")" -v steps="$steps" -v pair="$pair" '
     NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "ms_step") column = k; next }
     $1 > 0 { alone += $column / 1000 }
-    END { printf "%d: window %.1f steps/s, alone %.1f, share %.3f\n", pair, steps / wall, steps / alone, alone / wall }' \
+    END { if (!column || steps < 10 || alone <= 0) exit 1
+          printf "%d: window %.1f steps/s, alone %.1f, share %.3f\n", pair, steps / wall, steps / alone, alone / wall }' \
     headless/stats.csv | tee -a shares
 done
 awk '{ print $NF }' shares | sort -n | awk '{ s[NR] = $1 } END { print "median share " s[int((NR + 1) / 2)] }'

@@ -1,5 +1,7 @@
 // Drafts: quick pictures that must not show anything else than the full ones do.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -22,6 +24,7 @@ Frame shaken_water(double step) {
     for (double y = -1 + step / 2; y < -0.4 * x; y += step)
       for (double z = -1 + step / 2; z < 1; z += step)
         positions.push_back(to_float({x, y, z}) + Vec3{shift(random), shift(random), shift(random)});
+  for (Vec3& p : positions) p.w = 1;
   Frame frame = frame_of(std::move(positions), 0.5 * step);
   for (const Vec3& p : frame.position) frame.value.push_back(p.y);
   frame.colour = {"height", "height", "m"};
@@ -79,6 +82,24 @@ TEST_CASE("lone drops are in sight, what is behind the eye or beside the picture
                                 {0, nan, 0}, {nan, nan, nan},     {0, 0, -1e30f}, {huge, huge, huge}};
   CHECK(in_sight(drops, view, 0.05) == std::vector<std::uint32_t>{0, 1, 2, 7});
   CHECK(in_sight({}, view, 0.05).empty());
+}
+
+TEST_CASE("a curtain of small drops hides nothing") {
+  Camera camera;
+  camera.position = Vec3d{0, 0, 3};
+  camera.target = Vec3d{0, 0, 0};
+  Domain domain;
+  domain.min = {-1, -1, -1};
+  domain.max = {1, 1, 1};
+  const View view = view_of(camera, domain, 3, 1.5);
+  std::vector<Vec3> drops{{0, 0, -0.9f}};
+  for (float z = 0.5f; z < 0.8f; z += 0.1f)
+    for (float x = -0.5f; x < 0.5f; x += 0.02f)
+      for (float y = -0.5f; y < 0.5f; y += 0.02f) drops.push_back({x, y, z});
+  for (const float size : {1.f, 0.6f}) {
+    for (Vec3& p : drops) p.w = size;
+    CHECK((in_sight(drops, view, 0.05).front() == 0) == (size < 1));
+  }
 }
 
 TEST_CASE("a draft shows what the full picture shows, and leaves no trace in the next") {
