@@ -108,8 +108,7 @@ void Interface::draw_parameter(const ParameterRow& row) {
   ImGui::SameLine();
   const std::string label = label_of(row);
   if (changed_from_own || waits(row)) {
-    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s %s", label.c_str(),
-                       waits(row) ? "(!)" : "*");
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s %s", label.c_str(), waits(row) ? "(!)" : "*");
   } else {
     ImGui::TextUnformatted(label.c_str());
   }
