@@ -59,6 +59,11 @@
        "Time step to which gamma of the rate form "                                                                   \
        "refers.")
 
+#define CURLEW_VORTICITY_CONFINEMENT_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                          \
+  REAL(epsilon, 0.0, 0.0, 0.5, 0.0, 1e3, "m/s", "epsilon", live,                                                    \
+       "Push along the swirl of each vortex, in m/s^2 for a vorticity of 1/s (Macklin & Mueller 2013, section 5); " \
+       "adds energy without a limit; 0 skips the passes.")
+
 #define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
   REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live,                                                                \
        "Farthest that a particle may move in a step, in particle "                                                   \
@@ -74,9 +79,11 @@
        "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")
 
 // group name, struct, table, heading
-#define CURLEW_PARAMETER_GROUPS(GROUP)                                                         \
-  GROUP(sph, SphParameters, CURLEW_SPH_PARAMETERS, "Discretisation")                           \
-  GROUP(pressure, PressureParameters, CURLEW_PRESSURE_PARAMETERS, "Pressure (DFSPH)")          \
-  GROUP(viscosity, ViscosityParameters, CURLEW_VISCOSITY_PARAMETERS, "Viscosity")              \
-  GROUP(micropolar, MicropolarParameters, CURLEW_MICROPOLAR_PARAMETERS, "Micropolar and XSPH") \
+#define CURLEW_PARAMETER_GROUPS(GROUP)                                                                  \
+  GROUP(sph, SphParameters, CURLEW_SPH_PARAMETERS, "Discretisation")                                    \
+  GROUP(pressure, PressureParameters, CURLEW_PRESSURE_PARAMETERS, "Pressure (DFSPH)")                   \
+  GROUP(viscosity, ViscosityParameters, CURLEW_VISCOSITY_PARAMETERS, "Viscosity")                       \
+  GROUP(micropolar, MicropolarParameters, CURLEW_MICROPOLAR_PARAMETERS, "Micropolar and XSPH")          \
+  GROUP(vorticity_confinement, VorticityConfinementParameters, CURLEW_VORTICITY_CONFINEMENT_PARAMETERS, \
+        "Vorticity confinement")                                                                        \
   GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")

@@ -9,6 +9,7 @@
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
 #include "sim/sph/pressure.h"
+#include "sim/turbulence/vorticity_confinement_macklin2013.h"
 
 namespace curlew {
 namespace {
@@ -30,6 +31,7 @@ bool has_open_face(const World& w) {
   return false;
 }
 bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
+bool confines_vorticity(const World& w) { return w.parameters().vorticity_confinement.epsilon > 0; }
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
@@ -54,6 +56,11 @@ constexpr Pass passes[] = {
      .writes = {acceleration},
      .wanted = is_viscous,
      .run = viscosity},
+    {.name = "vorticity_confinement",
+     .reads = {position, vorticity, acceleration},
+     .writes = {acceleration},
+     .wanted = confines_vorticity,
+     .run = vorticity_confinement},
     {.name = "time_step",
      .reads = {velocity, acceleration},
      .writes = {},

@@ -20,6 +20,7 @@ Scene dam_with_everything(int dimension) {
   for (Wall& wall : scene.domain.walls) wall.kind = WallKind::no_slip;
   scene.parameters.viscosity.nu = 0.005;
   scene.parameters.micropolar.gamma = 0.05;
+  scene.parameters.vorticity_confinement.epsilon = 0.02;
   return scene;
 }
 

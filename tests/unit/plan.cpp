@@ -66,6 +66,10 @@ TEST_CASE("switches bring their passes and fields, and only theirs", "[plan]") {
   CHECK_FALSE(make_plan(make_world(scene)).fields.has(FieldId::boundary_friction));
   scene.parameters.micropolar.gamma = 0.1;
   CHECK(planned(make_plan(make_world(scene)), "xsph"));
+  CHECK_FALSE(make_plan(make_world(scene)).fields.has(FieldId::vorticity));
+  scene.parameters.vorticity_confinement.epsilon = 0.1;
+  CHECK(planned(make_plan(make_world(scene)), "vorticity_confinement"));
+  CHECK(planned(make_plan(make_world(scene)), "vorticity"));
   scene.parameters.pressure.max_divergence_iterations = 0;
   CHECK_FALSE(planned(make_plan(make_world(scene)), "divergence_solve"));
   CHECK_FALSE(planned(make_plan(make_world(scene)), "outflow"));
@@ -93,6 +97,7 @@ TEST_CASE("what is off costs no byte and no sweep", "[plan]") {
   Scene zeroed = plain;
   zeroed.parameters.viscosity.nu = 0;
   zeroed.parameters.micropolar.gamma = 0;
+  zeroed.parameters.vorticity_confinement.epsilon = 0;
   CHECK(cost_of(zeroed) == cost_of(plain));
   // The counters are alive: what is on costs something.
   Scene viscous = plain;
