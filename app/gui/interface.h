@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@
 #include "sim/scene/bundled.h"
 
 namespace curlew {
+
+// Parameters whose sliders stand together under "Turbulence", and not again in their groups.
+std::span<const std::string_view> turbulence_keys();
 
 class Interface {
  public:

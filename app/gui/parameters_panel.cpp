@@ -20,6 +20,9 @@ bool wide(const ParameterRow& row) { return row.slider_min > 0 && row.slider_max
 
 std::string label_of(const ParameterRow& row) {
   std::string name = member_of(row);
+  if (row.key == "micropolar.nu_t") name = "spin transfer";
+  if (row.key == "micropolar.eta") name = "smoothing of spins";
+  if (row.key == "vorticity_confinement.epsilon") name = "confinement";
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string label = row.symbol.empty() ? name : written_symbol(row.symbol) + "  " + name;
   if (row.unit != "1" && !row.unit.empty()) label += " (" + written_unit(row.unit) + ")";
@@ -170,30 +173,29 @@ void Interface::redo() {
   session_.set_parameters(scene_.parameters);
 }
 
-// Their sliders come alive with their models; the places are kept so that hands find them where they will be.
+std::span<const std::string_view> turbulence_keys() {
+  static constexpr std::string_view keys[] = {"micropolar.nu_t", "micropolar.eta", "vorticity_confinement.epsilon"};
+  return keys;
+}
+
+// The main slider of each model. Those of models to come have their place already, so that hands find them there.
 void Interface::draw_turbulence() {
-  struct Place {
-    const char *symbol, *name, *doc;
-  };
-  constexpr Place places[] = {
-      {"alpha", "vorticity refinement", "Share of the lost vorticity that is given back (Liu et al. 2020)."},
-      {"nu_t", "micropolar transfer", "Transfer between flow and microrotation (Bender et al. 2018)."},
-      {"eta", "microrotation smoothing", "XSPH of the microrotation (Bender et al. 2018)."},
-      {"A", "wavelet amplitude", "Strength of the synthesised turbulence (Fujisawa et al. 2011)."},
-  };
-  for (const Place& place : places) {
+  const auto to_come = [](const char* symbol, const char* name, const char* doc) {
     double zero = 0;
     const double low = 0, high = 1;
     ImGui::BeginDisabled();
     ImGui::SetNextItemWidth(slider_width());
-    ImGui::SliderScalar((std::string("##") + place.name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
+    ImGui::SliderScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-      ImGui::SetTooltip("%s\nThis version does not have the model yet.", place.doc);
+      ImGui::SetTooltip("%s\nThis version does not have the model yet.", doc);
     }
     ImGui::SameLine();
-    ImGui::TextDisabled("%s  %s", written_symbol(place.symbol).c_str(), place.name);
-  }
+    ImGui::TextDisabled("%s  %s", written_symbol(symbol).c_str(), name);
+  };
+  to_come("alpha", "vorticity refinement", "Share of the lost vorticity that is given back (Liu et al. 2020).");
+  for (const std::string_view key : turbulence_keys()) draw_parameter(parameter_row(key));
+  to_come("A", "wavelet amplitude", "Strength of the synthesised turbulence (Fujisawa et al. 2011).");
 }
 
 void Interface::draw_resolution() {
@@ -279,7 +281,9 @@ void Interface::draw_parameters() {
   if (turbulence) draw_turbulence();
   std::string heading;
   bool open = false;
+  const auto shown_above = turbulence_keys();
   for (const ParameterRow& row : parameter_table()) {
+    if (std::find(shown_above.begin(), shown_above.end(), row.key) != shown_above.end()) continue;
     if (row.heading != heading) {
       heading = row.heading;
       const bool first = row.group == "viscosity" || row.group == "time" || row.group == "micropolar";

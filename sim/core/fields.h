@@ -1,9 +1,10 @@
 // The table of particle fields: each per-particle array is declared once. From a row come allocation, the sort
 // permutation, checkpoints, the state hash, the colour-by menu and the exports.
 //
-//   FIELD(name, type, unit, kept or scratch, doc)
+//   FIELD(name, type, unit, kept, model or scratch, doc)
 //
-// Kept fields are sorted, saved and hashed. Scratch fields exist only where a planned pass touches them and hold
+// Kept fields are sorted, saved and hashed; those of a model too, but only while its passes are planned: they begin at
+// zero and cost nothing before. Scratch fields exist only where a planned pass touches them and hold
 // nothing from one step to the next but what the passes at the end of a step leave for those at the start of the next.
 #pragma once
 
@@ -24,6 +25,7 @@ namespace curlew {
   FIELD(density_stiffness, float, "m^5/(kg s^2)", kept, "p / rho^2 of the density solve, carried as its warm start.") \
   FIELD(divergence_stiffness, float, "m^5/(kg s^2)", kept,                                                            \
         "p / rho^2 of the divergence solve, carried as its warm start.")                                              \
+  FIELD(microrotation, Vec3, "1/s", model, "Spin of the particle, omega (Bender et al. 2018); w is not used.")        \
   FIELD(density, float, "kg/m^3", scratch, "SPH sum over fluid and boundary.")                                        \
   FIELD(diagonal, float, "kg^2/m^8", scratch,                                                                         \
         "|sum m grad W|^2 + sum |m grad W|^2, the diagonal of the pressure operator (DFSPH factor, inverted).")       \
@@ -50,7 +52,10 @@ enum class FieldId : std::uint8_t {
 #undef CURLEW_ID
 };
 
-enum class FieldKind : std::uint8_t { kept, scratch };
+enum class FieldKind : std::uint8_t { kept, model, scratch };
+
+// Sorted, saved and hashed.
+constexpr bool is_state(FieldKind kind) { return kind != FieldKind::scratch; }
 
 // Sixty-four bytes: a cache line, and any SIMD register.
 template <class T>

@@ -49,15 +49,26 @@
          "Liu et al. 2020 Eq. 4), which conserves angular momentum.",                                              \
          scalar, vector)
 
-#define CURLEW_MICROPOLAR_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                       \
-  REAL(gamma, 0.0, 0.0, 0.1, 0.0, 1.0, "1", "gamma", live,                                                            \
-       "XSPH smoothing of the velocity (Bender et al. 2018, section 5; they use 0.002); 0 skips the pass.")           \
-  CHOICE(xsph_form, rate, "", live,                                                                                   \
-         "XSPH as a rate (gamma per xsph_reference_step, the same under any time step) or per step as in the paper.", \
-         rate, step)                                                                                                  \
-  REAL(xsph_reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "", live,                                               \
-       "Time step to which gamma of the rate form "                                                                   \
-       "refers.")
+#define CURLEW_MICROPOLAR_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                        \
+  REAL(nu_t, 0.0, 0.0, 0.5, -1e3, 1e3, "m^2/s", "nu_t", live,                                                          \
+       "Transfer between the flow and the particles' spin (Bender et al. 2018, Eq. 6 to 9; they use 0.05 to 0.4); 0 "  \
+       "switches the inviscid model off, minus viscosity.nu the full one.")                                            \
+  CHOICE(model, inviscid, "", live,                                                                                    \
+         "Inviscid as in the paper's scenes (Eq. 8, 9), or full, with viscosity.nu and zeta (Eq. 6, 7).", inviscid,    \
+         full)                                                                                                         \
+  REAL(theta, 2.0, 0.1, 10.0, 1e-12, 1e6, "m^2", "Theta", live, "Microinertia (Bender et al. 2018 use 2).")            \
+  REAL(zeta, 0.0, 0.0, 1.0, 0.0, 1e3, "m^4/s", "zeta", live, "Diffusion of the spin in the full model (Eq. 7).")       \
+  REAL(eta, 0.125, 0.0, 0.5, 0.0, 1.0, "1", "eta", live,                                                               \
+       "XSPH smoothing of the spin (Bender et al. 2018, section 5: 0.125), where the model is on.")                    \
+  REAL(gamma, 0.0, 0.0, 0.1, 0.0, 1.0, "1", "gamma", live,                                                             \
+       "XSPH smoothing of the velocity (Bender et al. 2018, section 5; they use 0.002); 0 skips the pass.")            \
+  CHOICE(xsph_form, rate, "", live,                                                                                    \
+         "XSPH as a rate (gamma and eta per xsph_reference_step, the same under any time step) or per step as in the " \
+         "paper.",                                                                                                     \
+         rate, step)                                                                                                   \
+  REAL(xsph_reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "", live,                                                \
+       "Time step to which gamma and eta of the rate form "                                                            \
+       "refer.")
 
 #define CURLEW_VORTICITY_CONFINEMENT_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                          \
   REAL(epsilon, 0.0, 0.0, 0.5, 0.0, 1e3, "m/s", "epsilon", live,                                                    \

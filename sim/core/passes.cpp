@@ -9,6 +9,7 @@
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
 #include "sim/sph/pressure.h"
+#include "sim/turbulence/micropolar_bender2018.h"
 #include "sim/turbulence/vorticity_confinement_macklin2013.h"
 
 namespace curlew {
@@ -32,6 +33,7 @@ bool has_open_face(const World& w) {
 }
 bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
 bool confines_vorticity(const World& w) { return w.parameters().vorticity_confinement.epsilon > 0; }
+bool is_micropolar(const World& w) { return transfer_coefficient(w.parameters()) != 0; }
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
@@ -56,6 +58,11 @@ constexpr Pass passes[] = {
      .writes = {acceleration},
      .wanted = is_viscous,
      .run = viscosity},
+    {.name = "micropolar",
+     .reads = {position, density, acceleration, microrotation},
+     .writes = {acceleration},
+     .wanted = is_micropolar,
+     .run = micropolar_force},
     {.name = "vorticity_confinement",
      .reads = {position, vorticity, acceleration},
      .writes = {acceleration},
@@ -73,6 +80,11 @@ constexpr Pass passes[] = {
      .wanted = always,
      .run = apply_forces,
      .changes_velocity = true},
+    {.name = "spin",
+     .reads = {position, velocity, density, microrotation},
+     .writes = {microrotation, acceleration},
+     .wanted = is_micropolar,
+     .run = spin},
     {.name = "xsph",
      .reads = {position, velocity, density},
      .writes = {velocity, acceleration},
@@ -190,13 +202,15 @@ void save_backup(World& world) {
     b.density_stiffness[i] = world.fields.density_stiffness[i];
     b.divergence_stiffness[i] = world.fields.divergence_stiffness[i];
   });
+  b.microrotation = world.fields.microrotation;
 }
 
-// Positions move last, so the velocities and the warm start are all that a step that failed has changed.
+// Positions move last, so the velocities, the spins and the warm start are all that a step that failed has changed.
 void restore_backup(World& world) {
   world.fields.velocity = world.backup.velocity;
   world.fields.density_stiffness = world.backup.density_stiffness;
   world.fields.divergence_stiffness = world.backup.divergence_stiffness;
+  world.fields.microrotation = world.backup.microrotation;
 }
 
 void run_passes(World& world, const std::vector<const Pass*>& list, PassObserver* observer) {

@@ -20,11 +20,11 @@ inline constexpr std::uint32_t version = 1;
 inline constexpr std::size_t prefix_bytes = 8 + 4 + 4 + 8;  // magic, version, header size, payload size
 inline constexpr std::size_t checksum_bytes = 8;
 
-// Calls f(row, array) for every kept field, in the order of the table.
+// Calls f(row, array) for every field that is state, in the order of the table.
 template <class FieldsLike, class F>
 void for_each_kept_field(FieldsLike& fields, F&& f) {
   for_each_field(fields, [&](const FieldRow& row, auto& array) {
-    if (row.kind == FieldKind::kept) f(row, array);
+    if (is_state(row.kind)) f(row, array);
   });
 }
 

@@ -15,11 +15,12 @@ Vec3d lowest_point(const Scene& scene) {
 }
 
 struct Sums {
-  double speed2 = 0, fall = 0;
+  double speed2 = 0, spin2 = 0, fall = 0;
   Vec3d velocity, moment;
   double max_speed2 = 0;
   void operator+=(const Sums& other) {
     speed2 += other.speed2;
+    spin2 += other.spin2;
     fall += other.fall;
     velocity += other.velocity;
     moment += other.moment;
@@ -31,16 +32,20 @@ struct Sums {
 
 Diagnostics diagnose(const World& world) {
   const Vec3d low = lowest_point(world.scene), g = world.scene.gravity;
+  const bool spins = !world.fields.microrotation.empty();
   const auto sums = ordered_sum<Sums>(world.count, [&](std::size_t begin, std::size_t end) {
     Sums part;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3d x = to_double(world.fields.position[i]), v = to_double(world.fields.velocity[i]);
-      part += {dot(v, v), dot(g, x - low), v, cross(x, v), dot(v, v)};
+      const Vec3d omega = spins ? to_double(world.fields.microrotation[i]) : Vec3d{};
+      part += {dot(v, v), dot(omega, omega), dot(g, x - low), v, cross(x, v), dot(v, v)};
     }
     return part;
   });
   const double m = world.mass;
-  return {m / 2 * sums.speed2, 0, -m * sums.fall, m * sums.velocity, m * sums.moment, std::sqrt(sums.max_speed2)};
+  const double theta = world.parameters().micropolar.theta;
+  return {m / 2 * sums.speed2, m / 2 * theta * sums.spin2, -m * sums.fall, m * sums.velocity,
+          m * sums.moment,     std::sqrt(sums.max_speed2)};
 }
 
 double kinetic_energy(const World& world) {

@@ -9,11 +9,13 @@ namespace curlew {
 
 void sort_particles(World& world) {
   world.grid.build(world.cells, world.fields.position, world.order);
-#define CURLEW_SORT(name, type, unit, kind, doc)                                                                     \
-  if constexpr (FieldKind::kind == FieldKind::kept) {                                                                \
-    world.sort_space.name.resize(world.count);                                                                       \
-    parallel_for(world.count, [&](std::size_t k) { world.sort_space.name[k] = world.fields.name[world.order[k]]; }); \
-    world.fields.name.swap(world.sort_space.name);                                                                   \
+#define CURLEW_SORT(name, type, unit, kind, doc)                                                                       \
+  if constexpr (is_state(FieldKind::kind)) {                                                                           \
+    if (!world.fields.name.empty()) {                                                                                  \
+      world.sort_space.name.resize(world.count);                                                                       \
+      parallel_for(world.count, [&](std::size_t k) { world.sort_space.name[k] = world.fields.name[world.order[k]]; }); \
+      world.fields.name.swap(world.sort_space.name);                                                                   \
+    }                                                                                                                  \
   }
   CURLEW_FIELDS(CURLEW_SORT)
 #undef CURLEW_SORT

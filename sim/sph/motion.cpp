@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
 namespace {
@@ -25,7 +26,7 @@ double allowed_step(const World& world, double max_speed, double max_acceleratio
   const MicropolarParameters& m = world.parameters().micropolar;
   const bool rate = m.xsph_form == MicropolarParameters::xsph_form_t::rate;
   if (rate && m.gamma > 0) dt = std::min(dt, 0.5 * m.xsph_reference_step / m.gamma);  // smooths by a half at most
-  return dt;
+  return std::min(dt, micropolar_step_limit(world));
 }
 
 double largest_length(std::size_t n, const Array<Vec3>& field) {
@@ -208,7 +209,7 @@ void remove_escaped(World& world) {
   world.count = stay.size();
   for_each_field(f, [&](const FieldRow& row, auto& array) {
     if (array.empty()) return;
-    for (std::size_t k = 0; k < stay.size() && row.kind == FieldKind::kept; ++k) array[k] = array[stay[k]];
+    for (std::size_t k = 0; k < stay.size() && is_state(row.kind); ++k) array[k] = array[stay[k]];
     array.resize(stay.size());
   });
 }

@@ -21,6 +21,7 @@ Scene dam_with_everything(int dimension) {
   scene.parameters.viscosity.nu = 0.005;
   scene.parameters.micropolar.gamma = 0.05;
   scene.parameters.vorticity_confinement.epsilon = 0.02;
+  scene.parameters.micropolar.nu_t = 0.05;
   return scene;
 }
 
