@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/pair_sums.h"
 
 namespace curlew {
 
@@ -51,8 +52,7 @@ void boundary_sums(World& world) {
 }
 
 void gradient_correction(World& world) {
-  ++world.work.sweeps;
-  world.work.pair_visits += world.neighbours.pairs();
+  count_sweep(world);
   Fields& f = world.fields;
   const bool flat = world.scene.dimension == 2;
   with_images(world.cells, [&](auto images) {
@@ -84,8 +84,7 @@ void gradient_correction(World& world) {
 }
 
 void compute_density(World& world) {
-  ++world.work.sweeps;
-  world.work.pair_visits += world.neighbours.pairs();
+  count_sweep(world);
   Fields& f = world.fields;
   const bool boundary = world.has_boundary();
   const float mass = world.mass;

@@ -3,15 +3,11 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/pair_sums.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
 namespace {
-
-void count_sweep(World& world) {
-  ++world.work.sweeps;
-  world.work.pair_visits += world.neighbours.pairs();
-}
 
 Vec3 gravity_of(const World& world) { return to_float(world.scene.gravity); }
 
@@ -220,16 +216,10 @@ void compute_vorticity(World& world) {
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       const Vec3 v = f.velocity[i];
-      f8 x{}, y{}, z{};
-      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p8) {
-        const Vec8 other = gather(f.velocity.data(), p8.j);
-        const f8 vx = v.x - other.x, vy = v.y - other.y, vz = v.z - other.z;
-        const f8 slope = world.kernel.slope(p8.r2);
-        x += slope * (vy * p8.z - vz * p8.y);
-        y += slope * (vz * p8.x - vx * p8.z);
-        z += slope * (vx * p8.y - vy * p8.x);
-      });
-      f.vorticity[i] = (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
+      VectorSum curl;
+      for_pairs(world.neighbours, f.position.data(), i, images,
+                [&](const Pairs& p) { curl.add_curl(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
+      f.vorticity[i] = (world.mass / f.density[i]) * curl.total();
     });
   });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/pair_sums.h"
 
 namespace curlew {
 namespace {
@@ -23,11 +24,6 @@ struct Solve {
   int max_iterations;
   bool corrected = false;
 };
-
-void count_sweep(World& world) {
-  world.work.pair_visits += world.neighbours.pairs();
-  ++world.work.sweeps;
-}
 
 // a(k) for the iterate in packed.w, into the field acceleration.
 void accelerate(World& world) {

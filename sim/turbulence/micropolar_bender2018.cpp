@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/pair_sums.h"
 
 namespace curlew {
 namespace {
@@ -11,11 +12,6 @@ namespace {
 using Micropolar = MicropolarParameters;
 
 bool is_full(const Parameters& p) { return p.micropolar.model == Micropolar::model_t::full; }
-
-void count_sweep(World& world) {
-  ++world.work.sweeps;
-  world.work.pair_visits += world.neighbours.pairs();
-}
 
 }  // namespace
 
@@ -28,16 +24,11 @@ void micropolar_force(World& world) {
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       const Vec3 omega = f.microrotation[i];
-      f8 x{}, y{}, z{};
+      VectorSum curl;
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-        const Vec8 other = gather(f.microrotation.data(), p.j);
-        const f8 wx = omega.x - other.x, wy = omega.y - other.y, wz = omega.z - other.z;
-        const f8 slope = world.kernel.slope(p.r2);
-        x += slope * (wy * p.z - wz * p.y);
-        y += slope * (wz * p.x - wx * p.z);
-        z += slope * (wx * p.y - wy * p.x);
+        curl.add_curl(world.kernel.slope(p.r2), omega, gather(f.microrotation.data(), p.j), p);
       });
-      f.acceleration[i] += strength / f.density[i] * Vec3{sum(x), sum(y), sum(z)};
+      f.acceleration[i] += strength / f.density[i] * curl.total();
     });
   });
 }
@@ -56,24 +47,20 @@ void spin(World& world) {
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       const Vec3 v = f.velocity[i], omega = f.microrotation[i];
-      f8 curl_x{}, curl_y{}, curl_z{}, x{}, y{}, z{};
+      VectorSum curl, pulls;
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& pairs) {
-        const Vec8 u = gather(f.velocity.data(), pairs.j), w = gather(f.microrotation.data(), pairs.j);
-        const f8 vx = v.x - u.x, vy = v.y - u.y, vz = v.z - u.z;
+        const Vec8 w = gather(f.microrotation.data(), pairs.j);
         const f8 slope = world.kernel.slope(pairs.r2);
-        curl_x += slope * (vy * pairs.z - vz * pairs.y);
-        curl_y += slope * (vz * pairs.x - vx * pairs.z);
-        curl_z += slope * (vx * pairs.y - vy * pairs.x);
+        curl.add_curl(slope, v, gather(f.velocity.data(), pairs.j), pairs);
         const f8 densities = f.density[i] + gather(f.density.data(), pairs.j);
-        const f8 pull =
-            (smoothing * world.kernel.value(pairs.r2) - diffusion * slope * pairs.r2 / (pairs.r2 + softening)) /
-            densities;
-        x += pull * (w.x - omega.x);
-        y += pull * (w.y - omega.y);
-        z += pull * (w.z - omega.z);
+        const f8 spread = diffusion * slope * pairs.r2 / (pairs.r2 + softening);
+        const f8 pull = (smoothing * world.kernel.value(pairs.r2) - spread) / densities;
+        pulls.x += pull * (w.x - omega.x);
+        pulls.y += pull * (w.y - omega.y);
+        pulls.z += pull * (w.z - omega.z);
       });
-      const Vec3 half_curl = 0.5f * world.mass / f.density[i] * Vec3{sum(curl_x), sum(curl_y), sum(curl_z)};
-      f.acceleration[i] = half_curl + kept * (omega + Vec3{sum(x), sum(y), sum(z)} - half_curl);
+      const Vec3 half_curl = 0.5f * world.mass / f.density[i] * curl.total();
+      f.acceleration[i] = half_curl + kept * (omega + pulls.total() - half_curl);
     });
   });
   parallel_for(world.count, [&](std::size_t i) { f.microrotation[i] = f.acceleration[i]; });

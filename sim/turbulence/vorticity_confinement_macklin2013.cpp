@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/pair_sums.h"
 
 namespace curlew {
 
 void vorticity_confinement(World& world) {
-  ++world.work.sweeps;
-  world.work.pair_visits += world.neighbours.pairs();
+  count_sweep(world);
   Fields& f = world.fields;
   const auto epsilon = static_cast<float>(world.parameters().vorticity_confinement.epsilon);
   // |omega| once a particle, in w of what it is the length of.
@@ -16,14 +16,14 @@ void vorticity_confinement(World& world) {
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       const Vec3 omega = f.vorticity[i];
-      f8 x{}, y{}, z{};
+      VectorSum rise;
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-        const f8 rise = world.kernel.slope(p.r2) * (gather(f.vorticity.data(), p.j).w - omega.w);
-        x += rise * p.x;
-        y += rise * p.y;
-        z += rise * p.z;
+        const f8 step = world.kernel.slope(p.r2) * (gather(f.vorticity.data(), p.j).w - omega.w);
+        rise.x += step * p.x;
+        rise.y += step * p.y;
+        rise.z += step * p.z;
       });
-      const Vec3 eta{sum(x), sum(y), sum(z)};
+      const Vec3 eta = rise.total();
       const float size = length(eta);
       if (size > 0) f.acceleration[i] += epsilon / size * cross(eta, omega);
     });

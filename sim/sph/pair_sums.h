@@ -1,0 +1,28 @@
+// Sums over the neighbours of one particle, eight at a time.
+#pragma once
+
+#include "sim/core/world.h"
+
+namespace curlew {
+
+// One visit of all pairs, for the work counts.
+inline void count_sweep(World& world) {
+  ++world.work.sweeps;
+  world.work.pair_visits += world.neighbours.pairs();
+}
+
+struct VectorSum {
+  f8 x{}, y{}, z{};
+
+  // slope (a_i - a_j) x x_ij: times the volume of j, the curl of a in the difference form (Liu et al. 2020, Eq. 6).
+  void add_curl(f8 slope, Vec3 here, const Vec8& there, const Pairs& pairs) {
+    const f8 ax = here.x - there.x, ay = here.y - there.y, az = here.z - there.z;
+    x += slope * (ay * pairs.z - az * pairs.y);
+    y += slope * (az * pairs.x - ax * pairs.z);
+    z += slope * (ax * pairs.y - ay * pairs.x);
+  }
+
+  Vec3 total() const { return {sum(x), sum(y), sum(z)}; }
+};
+
+}  // namespace curlew
