@@ -200,7 +200,7 @@ void Interface::draw(unsigned picture) {
   const auto em = static_cast<float>(14 * scale_);
   // Whole pixels: between them the background would show.
   const float bar = std::ceil(toolbar_rows(size.x) == 1 ? 2.7f * em : 4.5f * em), line = std::ceil(1.9f * em);
-  const float left = show_parameters_ ? std::ceil(std::min(25 * em, 0.42f * size.x)) : 0;
+  const float left = show_parameters_ ? std::ceil(std::min(25 * em, 0.45f * size.x)) : 0;
   const float right = show_view_ ? std::ceil(std::min(17 * em, 0.3f * size.x)) : 0;
   const float bottom = show_plots_ ? std::ceil(std::min(14 * em, 0.35f * size.y)) : 0;
   places_.clear();

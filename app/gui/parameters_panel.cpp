@@ -32,7 +32,7 @@ std::string label_of(const ParameterRow& row) {
 // In a narrow panel the names need the room.
 float slider_width() {
   const float em = ImGui::GetFontSize();
-  return std::clamp(ImGui::GetContentRegionAvail().x - 12.5f * em, 4 * em, 9.5f * em);
+  return std::clamp(ImGui::GetContentRegionAvail().x - 13.5f * em, 4 * em, 9.5f * em);
 }
 
 void tool_tip(const ParameterRow& row) {
