@@ -48,6 +48,16 @@ double mean_difference(const Image& a, const Image& b) {
   return sum / static_cast<double>(a.rgba.size());
 }
 
+View from_the_front() {
+  Camera camera;
+  camera.position = Vec3d{0, 0, 3};
+  camera.target = Vec3d{0, 0, 0};
+  Domain domain;
+  domain.min = {-1, -1, -1};
+  domain.max = {1, 1, 1};
+  return view_of(camera, domain, 3, 1.5);
+}
+
 }  // namespace
 
 TEST_CASE("what is deep in the water can be left out of a picture and nobody sees it") {
@@ -70,13 +80,7 @@ TEST_CASE("what is deep in the water can be left out of a picture and nobody see
 }
 
 TEST_CASE("lone drops are in sight, what is behind the eye or beside the picture is not") {
-  Camera camera;
-  camera.position = Vec3d{0, 0, 3};
-  camera.target = Vec3d{0, 0, 0};
-  Domain domain;
-  domain.min = {-1, -1, -1};
-  domain.max = {1, 1, 1};
-  const View view = view_of(camera, domain, 3, 1.5);
+  const View view = from_the_front();
   const float nan = std::nanf(""), huge = std::numeric_limits<float>::max();
   const std::vector<Vec3> drops{{0, 0, 0},   {0.1f, 0.2f, -0.9f}, {0, 0, -1},     {0, 0, 3.5f},      {50, 0, 0},
                                 {0, nan, 0}, {nan, nan, nan},     {0, 0, -1e30f}, {huge, huge, huge}};
@@ -85,13 +89,7 @@ TEST_CASE("lone drops are in sight, what is behind the eye or beside the picture
 }
 
 TEST_CASE("a curtain of small drops hides nothing") {
-  Camera camera;
-  camera.position = Vec3d{0, 0, 3};
-  camera.target = Vec3d{0, 0, 0};
-  Domain domain;
-  domain.min = {-1, -1, -1};
-  domain.max = {1, 1, 1};
-  const View view = view_of(camera, domain, 3, 1.5);
+  const View view = from_the_front();
   std::vector<Vec3> drops{{0, 0, -0.9f}};
   for (float z = 0.5f; z < 0.8f; z += 0.1f)
     for (float x = -0.5f; x < 0.5f; x += 0.02f)

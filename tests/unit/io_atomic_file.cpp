@@ -95,7 +95,8 @@ TEST_CASE("files that cannot be written say why", "[io]") {
 
   CHECK(message(folder / "file/x.vtk") == "cannot write " + (folder / "file/x.vtk") + ": " + (folder / "file") +
                                               " is a file, not a folder; choose another folder");
-  CHECK(message(folder / "folder") == "cannot write " + (folder / "folder") + ": it is a folder; choose another folder");
+  CHECK(message(folder / "folder") ==
+        "cannot write " + (folder / "folder") + ": it is a folder; choose another folder");
   CHECK(message("/dev/null") == "cannot write /dev/null: it is not a regular file; choose another folder");
   CHECK(message("/proc/x.vtk") == "cannot write /proc/x.vtk: No such file or directory; choose another folder");
   CHECK(folder.contents() == Names{"file", "folder"});
