@@ -26,6 +26,8 @@ namespace curlew {
   FIELD(divergence_stiffness, float, "m^5/(kg s^2)", kept,                                                            \
         "p / rho^2 of the divergence solve, carried as its warm start.")                                              \
   FIELD(microrotation, Vec3, "1/s", model, "Spin of the particle, omega (Bender et al. 2018); w is not used.")        \
+  FIELD(predicted_vorticity, Vec3, "1/s", model,                                                                      \
+        "Vorticity that the flow has after the step if it loses none (Liu et al. 2020, Eq. 11); w: 1 where known.")   \
   FIELD(density, float, "kg/m^3", scratch, "SPH sum over fluid and boundary.")                                        \
   FIELD(diagonal, float, "kg^2/m^8", scratch,                                                                         \
         "|sum m grad W|^2 + sum |m grad W|^2, the diagonal of the pressure operator (DFSPH factor, inverted).")       \
@@ -34,6 +36,8 @@ namespace curlew {
         "Gradient of the density that boundaries add; w: that density itself, in kg/m^3.")                            \
   FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                    \
         "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                  \
+  FIELD(no_slip_gradient, Vec3, "kg/m^4", scratch, "The share of no-slip surfaces in boundary_gradient.")             \
+  FIELD(no_slip_velocity, Vec3, "m/s", scratch, "Velocity of the no-slip surfaces near, the mean of several.")        \
   FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")          \
   FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")      \
   FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \
@@ -44,7 +48,10 @@ namespace curlew {
   FIELD(iterate, float, "m^5/(kg s^2)", scratch, "Last iterate of a pressure solve, before momentum.")                \
   FIELD(pressure, float, "Pa", scratch,                                                                               \
         "Sum of both solves, rho^2 (k_density + k_divergence) times the gradient share.")                             \
-  FIELD(vorticity, Vec3, "1/s", scratch, "Curl of the velocity, difference form (Liu et al. 2020, Eq. 6).")
+  FIELD(vorticity, Vec3, "1/s", scratch, "Curl of the velocity, difference form (Liu et al. 2020, Eq. 6).")           \
+  FIELD(lost_vorticity, Vec3, "1/s", scratch,                                                                         \
+        "Vorticity that the last step lost (Liu et al. 2020, Eq. 12); w: volume of the particle, m^D.")               \
+  FIELD(stream_function, Vec3, "m^2/s", scratch, "Vector potential of the lost velocity (Liu et al. 2020, Eq. 15).")
 
 enum class FieldId : std::uint8_t {
 #define CURLEW_ID(name, ...) name,
@@ -106,13 +113,14 @@ class FieldSet {
   constexpr FieldSet without(FieldSet other) const { return FieldSet(bits_ & ~other.bits_); }
   constexpr bool operator==(const FieldSet&) const = default;
 
-  static constexpr FieldSet kept() {
+  static constexpr FieldSet of(FieldKind kind) {
     FieldSet set;
     for (const FieldRow& row : field_table) {
-      if (row.kind == FieldKind::kept) set.bits_ |= bit(row.id);
+      if (row.kind == kind) set.bits_ |= bit(row.id);
     }
     return set;
   }
+  static constexpr FieldSet kept() { return of(FieldKind::kept); }
 
  private:
   constexpr explicit FieldSet(std::uint64_t bits) : bits_(bits) {}

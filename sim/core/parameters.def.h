@@ -70,6 +70,15 @@
        "Time step to which gamma and eta of the rate form "                                                            \
        "refer.")
 
+#define CURLEW_VORTICITY_REFINEMENT_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                             \
+  REAL(alpha, 0.0, 0.0, 1.5, 0.0, 1e3, "1", "alpha", live,                                                            \
+       "Share of the vorticity that each step loses which is given back (Liu et al. 2020, Eq. 17; they use 1 to 1.2 " \
+       "and call 1.3 unstable); 0 skips the passes.")                                                                 \
+  CHOICE(reconstruction, sum, "", live,                                                                               \
+         "From vorticity to velocity: the paper's sum over neighbours (Eq. 15), which gives back small eddies in "    \
+         "part and large ones hardly, or Poisson's equation on a grid, which gives back all that the grid resolves.", \
+         sum, poisson)
+
 #define CURLEW_VORTICITY_CONFINEMENT_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                          \
   REAL(epsilon, 0.0, 0.0, 0.5, 0.0, 1e3, "m/s", "epsilon", live,                                                    \
        "Push along the swirl of each vortex, in m/s^2 for a vorticity of 1/s (Macklin & Mueller 2013, section 5); " \
@@ -95,6 +104,8 @@
   GROUP(pressure, PressureParameters, CURLEW_PRESSURE_PARAMETERS, "Pressure (DFSPH)")                   \
   GROUP(viscosity, ViscosityParameters, CURLEW_VISCOSITY_PARAMETERS, "Viscosity")                       \
   GROUP(micropolar, MicropolarParameters, CURLEW_MICROPOLAR_PARAMETERS, "Micropolar and XSPH")          \
+  GROUP(vorticity_refinement, VorticityRefinementParameters, CURLEW_VORTICITY_REFINEMENT_PARAMETERS,    \
+        "Vorticity refinement")                                                                         \
   GROUP(vorticity_confinement, VorticityConfinementParameters, CURLEW_VORTICITY_CONFINEMENT_PARAMETERS, \
         "Vorticity confinement")                                                                        \
   GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")

@@ -11,6 +11,7 @@
 #include "sim/sph/pressure.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 #include "sim/turbulence/vorticity_confinement_macklin2013.h"
+#include "sim/turbulence/vorticity_refinement_liu2020.h"
 
 namespace curlew {
 namespace {
@@ -34,10 +35,12 @@ bool has_open_face(const World& w) {
 bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
 bool confines_vorticity(const World& w) { return w.parameters().vorticity_confinement.epsilon > 0; }
 bool is_micropolar(const World& w) { return transfer_coefficient(w.parameters()) != 0; }
+bool refines_vorticity(const World& w) { return w.parameters().vorticity_refinement.alpha > 0; }
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
-constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction};
+constexpr FieldSet no_slip_fields{no_slip_gradient, no_slip_velocity};
+constexpr FieldSet boundary_fields = FieldSet{boundary_gradient, boundary_friction} | no_slip_fields;
 constexpr FieldSet solver_space{packed, acceleration, source, iterate};
 constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed};
 constexpr FieldSet solver_input =
@@ -50,6 +53,12 @@ constexpr Pass passes[] = {
      .writes = FieldSet{velocity, divergence_stiffness} | solver_space,
      .wanted = solves_divergence,
      .run = divergence_solve,
+     .changes_velocity = true},
+    {.name = "vorticity_refinement",
+     .reads = FieldSet{position, velocity, density, neighbour_number, predicted_vorticity} | no_slip_fields,
+     .writes = {velocity, lost_vorticity, stream_function},
+     .wanted = refines_vorticity,
+     .run = refine_vorticity,
      .changes_velocity = true},
     // Forces and the new step:
     {.name = "gravity", .reads = {}, .writes = {acceleration}, .wanted = always, .run = gravity},
@@ -91,6 +100,11 @@ constexpr Pass passes[] = {
      .wanted = uses_xsph,
      .run = xsph,
      .changes_velocity = true},
+    {.name = "vorticity_prediction",
+     .reads = FieldSet{position, velocity, density, boundary_gradient} | no_slip_fields,
+     .writes = {predicted_vorticity},
+     .wanted = refines_vorticity,
+     .run = predict_vorticity},
     // Constant density at the positions to come:
     {.name = "density_solve",
      .reads = solver_input | FieldSet{density_stiffness},
@@ -143,22 +157,27 @@ constexpr Pass passes[] = {
      .wanted = always,
      .run = total_pressure},
     {.name = "vorticity",
-     .reads = {position, velocity, density},
+     .reads = FieldSet{position, velocity, density} | no_slip_fields,
      .writes = {vorticity},
      .wanted = always,
      .run = compute_vorticity},
 };
 
-bool moves_or_forces(const Pass& pass) { return pass.changes_velocity || pass.writes.has(acceleration); }
+// Whether a pass advances the state, rather than find out what depends on positions alone.
+bool advances(const Pass& pass) {
+  return pass.changes_velocity || pass.writes.meets(FieldSet{acceleration} | FieldSet::of(FieldKind::model)) ||
+         pass.name == "time_step" || pass.name == "advect";
+}
 
 // Fields that a pass touches but that this world has no use for.
-FieldSet unused_fields(const World& world) {
+FieldSet unused_fields(const World& world, FieldSet demanded) {
   FieldSet unused;
   if (!is_filled(world)) unused = unused | filled_fields;
   if (!world.has_boundary()) unused = unused | boundary_fields;
-  if (!is_viscous(world) || !(world.walls.any_no_slip() || world.bodies.any_no_slip())) {
-    unused = unused | FieldSet{boundary_friction};
-  }
+  const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
+  if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
+  const bool curls = refines_vorticity(world) || confines_vorticity(world) || is_micropolar(world);
+  if (!no_slip || !(curls || demanded.has(vorticity))) unused = unused | no_slip_fields;
   return unused;
 }
 
@@ -203,14 +222,17 @@ void save_backup(World& world) {
     b.divergence_stiffness[i] = world.fields.divergence_stiffness[i];
   });
   b.microrotation = world.fields.microrotation;
+  b.predicted_vorticity = world.fields.predicted_vorticity;
 }
 
-// Positions move last, so the velocities, the spins and the warm start are all that a step that failed has changed.
+// Positions move last, so the velocities, the models' fields and the warm start are all that a step that failed has
+// changed.
 void restore_backup(World& world) {
   world.fields.velocity = world.backup.velocity;
   world.fields.density_stiffness = world.backup.density_stiffness;
   world.fields.divergence_stiffness = world.backup.divergence_stiffness;
   world.fields.microrotation = world.backup.microrotation;
+  world.fields.predicted_vorticity = world.backup.predicted_vorticity;
 }
 
 void run_passes(World& world, const std::vector<const Pass*>& list, PassObserver* observer) {
@@ -229,7 +251,7 @@ void run_passes(World& world, const std::vector<const Pass*>& list, PassObserver
 std::span<const Pass> pass_table() { return passes; }
 
 Plan make_plan(const World& world, FieldSet demanded) {
-  const FieldSet unused = unused_fields(world);
+  const FieldSet unused = unused_fields(world, demanded);
   FieldSet needed = FieldSet::kept() | demanded;
   std::vector<bool> chosen(std::size(passes));
   // A step ends with passes that the next one's beginning reads, so go round until nothing is added.
@@ -248,7 +270,7 @@ Plan make_plan(const World& world, FieldSet demanded) {
     const Pass& pass = passes[p];
     plan.step.push_back(&pass);
     plan.fields = plan.fields | pass.reads.without(unused) | pass.writes.without(unused);
-    if (!moves_or_forces(pass) && pass.name != "time_step" && pass.name != "advect") plan.prepare.push_back(&pass);
+    if (!advances(pass)) plan.prepare.push_back(&pass);
   }
   return plan;
 }

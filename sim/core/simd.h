@@ -40,6 +40,18 @@ inline f8 inverse_sqrt(f8 v) {
 #endif
 }
 
+// ln v for positive normal v, to about 1e-7 of 1 + |ln v|: v = 2^n m with m in [sqrt(1/2), sqrt(2)),
+// ln m = 2 artanh((m - 1)/(m + 1)).
+inline f8 natural_log(f8 v) {
+  constexpr std::int32_t sqrt_half = 0x3f3504f3;
+  const i8 shifted = std::bit_cast<i8>(v) - sqrt_half;
+  const i8 exponent = shifted >> 23;
+  const f8 m = std::bit_cast<f8>((shifted & 0x007fffff) + sqrt_half);
+  const f8 t = (m - 1.0f) / (m + 1.0f), t2 = t * t;
+  const f8 series = 1.0f + t2 * (1.0f / 3 + t2 * (1.0f / 5 + t2 * (1.0f / 7 + t2 * (1.0f / 9))));
+  return 0.693147181f * __builtin_convertvector(exponent, f8) + 2.0f * t * series;
+}
+
 // Nearest whole numbers, ties to even.
 inline f8 nearest(f8 v) {
 #if defined(__AVX2__)

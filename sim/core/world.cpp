@@ -45,7 +45,10 @@ std::size_t allocated_bytes(const World& world) {
   for_each_field(world.fields, add);
   for_each_field(world.sort_space, add);
   bytes += world.order.capacity() * sizeof(std::uint32_t);
-  bytes += (world.backup.velocity.capacity() + world.backup.microrotation.capacity()) * sizeof(Vec3);
+  for (const Array<Vec3>* saved :
+       {&world.backup.velocity, &world.backup.microrotation, &world.backup.predicted_vorticity}) {
+    bytes += saved->capacity() * sizeof(Vec3);
+  }
   bytes += (world.backup.density_stiffness.capacity() + world.backup.divergence_stiffness.capacity()) * sizeof(float);
   return bytes;
 }

@@ -39,7 +39,7 @@ struct WorkCount {
 // What the velocity and the warm start were before the step: with the positions, which move last, this is the state
 // before a step that went wrong.
 struct Backup {
-  Array<Vec3> velocity, microrotation;
+  Array<Vec3> velocity, microrotation, predicted_vorticity;
   Array<float> density_stiffness, divergence_stiffness;
 };
 

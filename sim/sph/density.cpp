@@ -28,7 +28,7 @@ void find_neighbours(World& world) {
 
 void boundary_sums(World& world) {
   Fields& f = world.fields;
-  const bool friction = !f.boundary_friction.empty();
+  const bool friction = !f.boundary_friction.empty(), no_slip = !f.no_slip_gradient.empty();
   const Grid& grid = world.grid;
   constexpr std::size_t chunk = 16;
 #pragma omp parallel
@@ -45,6 +45,10 @@ void boundary_sums(World& world) {
           f.boundary_gradient[i] = total.gradient;
           f.neighbour_number[i] = total.neighbours;
           if (friction) f.boundary_friction[i] = total.friction;
+          if (!no_slip) continue;
+          const Vec3 velocity = total.no_slip_velocity;
+          f.no_slip_gradient[i] = total.no_slip_gradient;
+          f.no_slip_velocity[i] = velocity.w > 0 ? 1 / velocity.w * velocity : Vec3{};
         }
       }
     }

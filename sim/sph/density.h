@@ -10,7 +10,8 @@ void sort_particles(World& world);
 
 void find_neighbours(World& world);
 
-// Walls and bodies: boundary_gradient, boundary_friction (where allocated) and their share of neighbour_number.
+// Walls and bodies: boundary_gradient, their share of neighbour_number and, where allocated, boundary_friction and what
+// a curl has to know of no-slip surfaces.
 void boundary_sums(World& world);
 
 // density: rho_i = m sum_j W_ij (self included) + boundary. diagonal, neighbour_number.

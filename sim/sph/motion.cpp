@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
-#include "sim/sph/pair_sums.h"
+#include "sim/sph/velocity_gradient.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
@@ -212,15 +212,8 @@ void remove_escaped(World& world) {
 
 void compute_vorticity(World& world) {
   count_sweep(world);
-  Fields& f = world.fields;
   with_images(world.cells, [&](auto images) {
-    parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 v = f.velocity[i];
-      VectorSum curl;
-      for_pairs(world.neighbours, f.position.data(), i, images,
-                [&](const Pairs& p) { curl.add_curl(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
-      f.vorticity[i] = (world.mass / f.density[i]) * curl.total();
-    });
+    parallel_for(world.count, [&](std::size_t i) { world.fields.vorticity[i] = velocity_curl(world, i, images); });
   });
 }
 

@@ -22,6 +22,12 @@ struct VectorSum {
     z += slope * (ax * pairs.y - ay * pairs.x);
   }
 
+  void add(f8 ax, f8 ay, f8 az) {
+    x += ax;
+    y += ay;
+    z += az;
+  }
+
   Vec3 total() const { return {sum(x), sum(y), sum(z)}; }
 };
 

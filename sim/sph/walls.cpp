@@ -90,6 +90,10 @@ void Walls::add_face(WallSum& total, const Near& near) const {
     total.gradient.w += value;
     total.gradient[face.axis] += face.side * rate * slope;
     if (!face.no_slip) continue;
+    const float push = rate * slope;
+    total.no_slip_gradient[face.axis] += face.side * push;
+    total.no_slip_velocity += -push * face.velocity;
+    total.no_slip_velocity.w -= push;
     // 1 + s_b/a: two for the mirrored layer; bounded as Morris et al. do where a particle nears the plane.
     const float behind = (s - near.distance) / std::max(near.distance, 1e-6f * spacing_);
     const float pull = friction_.at(s).value * (1 + std::min(1.5f, behind));
@@ -113,10 +117,13 @@ void Walls::add_overlap(WallSum& total, const Near* const* near, int number) con
     const float s = std::sqrt(squared);
     const auto [value, slope] = flat_[dimension_ - number].at(s);
     const float slope_over_s = slope / std::max(s, 1e-6f * spacing_);
+    const bool no_slip = std::all_of(near, near + number, [](const Near* n) { return n->face->no_slip; });
     total.gradient.w += sign * value;
     for (int f = 0; f < number; ++f) {
-      total.gradient[near[f]->face->axis] +=
-          sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
+      const Face& face = *near[f]->face;
+      const float push = sign * face.side * depth[f].rate * slope_over_s * depth[f].distance;
+      total.gradient[face.axis] += push;
+      if (no_slip) total.no_slip_gradient[face.axis] += push;
     }
   }
 }

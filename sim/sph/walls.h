@@ -54,12 +54,14 @@ class DistanceTable {
   std::vector<Sample> nodes_;
 };
 
-// What the walls do to a particle at one place; densities and friction as in the fields boundary_gradient and
-// boundary_friction.
+// What the walls do to a particle at one place, as in the fields boundary_gradient, boundary_friction and
+// no_slip_gradient.
 struct WallSum {
   Vec3 gradient;  // w: density
   Vec3 friction;
-  float neighbours = 0;  // lattice points that would lie in the support behind the walls
+  Vec3 no_slip_gradient;
+  Vec3 no_slip_velocity;  // sum of velocities, each times a weight; w: the weights
+  float neighbours = 0;   // lattice points that would lie in the support behind the walls
 };
 
 class Walls {

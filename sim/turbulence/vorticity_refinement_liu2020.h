@@ -1,0 +1,32 @@
+// Vorticity refinement (Liu, Wang, Ban, Xu, Zhou, Kosinka & Telea 2020, Alg. 2): what vorticity a step should have left
+// and what it did leave differ by what the pressure solves and the advection have lost; that is given back.
+//
+//   zeta = curl v                                                                                (Eq. 6)
+//   zeta' = zeta + dt (zeta . grad) v                                                            (Eq. 7, 11)
+//   dzeta = zeta' - curl v~          v~: after both solves, at the new positions                 (Eq. 12)
+//   lap psi = -dzeta,  v = v~ + alpha curl psi                                                   (Eq. 13 to 17)
+//
+// zeta is taken after the forces and XSPH, which change vorticity because they are meant to: the paper's nu lap zeta is
+// the curl of the viscous force, and walls, the micropolar model and confinement come in the same way. Both curls use
+// the neighbours of their own positions; no-slip surfaces count as in the velocity gradient.
+//
+// reconstruction = sum:     psi_i = sum dzeta_j V_j / (4 pi r_ij) over neighbours within 0.995 of the support; in 2D
+//                           -sum dzeta_j V_j ln(r_ij / R) / (2 pi). The cut makes it a band-pass: of a loss with the
+//                           wave length 6d 0.8 comes back, of one with 32d 0.06 (see the tests).
+// reconstruction = poisson: see vector_potential.h.
+//
+// Particles with fewer neighbours than the divergence solve asks for (spray) give and get nothing: their curl is that
+// of a handful of points. A particle that has no prediction yet (the first step, or just emitted) gets nothing either.
+#pragma once
+
+#include "sim/core/world.h"
+
+namespace curlew {
+
+// v += alpha curl psi; fills lost_vorticity and stream_function.
+void refine_vorticity(World& world);
+
+// predicted_vorticity for the end of the step that is about to be taken.
+void predict_vorticity(World& world);
+
+}  // namespace curlew
