@@ -39,8 +39,7 @@ bool refines_vorticity(const World& w) { return w.parameters().vorticity_refinem
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
-constexpr FieldSet no_slip_fields{no_slip_gradient, no_slip_velocity};
-constexpr FieldSet boundary_fields = FieldSet{boundary_gradient, boundary_friction} | no_slip_fields;
+constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction, no_slip_gradient};
 constexpr FieldSet solver_space{packed, acceleration, source, iterate};
 constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed};
 constexpr FieldSet solver_input =
@@ -55,7 +54,7 @@ constexpr Pass passes[] = {
      .run = divergence_solve,
      .changes_velocity = true},
     {.name = "vorticity_refinement",
-     .reads = FieldSet{position, velocity, density, neighbour_number, predicted_vorticity} | no_slip_fields,
+     .reads = {position, velocity, density, neighbour_number, predicted_vorticity, no_slip_gradient},
      .writes = {velocity, lost_vorticity, stream_function},
      .wanted = refines_vorticity,
      .run = refine_vorticity,
@@ -101,7 +100,7 @@ constexpr Pass passes[] = {
      .run = xsph,
      .changes_velocity = true},
     {.name = "vorticity_prediction",
-     .reads = FieldSet{position, velocity, density, boundary_gradient} | no_slip_fields,
+     .reads = {position, velocity, density, no_slip_gradient},
      .writes = {predicted_vorticity},
      .wanted = refines_vorticity,
      .run = predict_vorticity},
@@ -157,7 +156,7 @@ constexpr Pass passes[] = {
      .wanted = always,
      .run = total_pressure},
     {.name = "vorticity",
-     .reads = FieldSet{position, velocity, density} | no_slip_fields,
+     .reads = {position, velocity, density, no_slip_gradient},
      .writes = {vorticity},
      .wanted = always,
      .run = compute_vorticity},
@@ -177,7 +176,9 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
   const bool curls = refines_vorticity(world) || confines_vorticity(world) || is_micropolar(world);
-  if (!no_slip || !(curls || demanded.has(vorticity))) unused = unused | no_slip_fields;
+  if (!world.bodies.any_no_slip() || !(curls || demanded.has(vorticity))) {
+    unused = unused | FieldSet{no_slip_gradient};
+  }
   return unused;
 }
 

@@ -75,7 +75,7 @@ void BodySamples::collect(const CellShape& shape, std::array<int, 3> cell, Candi
 void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const Kernel& kernel,
                       float rest_density) const {
   const auto support2 = static_cast<float>(kernel.support() * kernel.support());
-  f8 density{}, x{}, y{}, z{}, pull{}, number{}, rough_x{}, rough_y{}, rough_z{}, weight{};
+  f8 density{}, x{}, y{}, z{}, pull{}, number{}, rough_x{}, rough_y{}, rough_z{};
   for (std::size_t k = 0; k < near.size; k += 8) {
     const auto o = near.offsets(here, k);
     const i8 inside = o.r2 < support2;
@@ -94,7 +94,6 @@ void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const K
       rough_x += rough * slope * o.x;
       rough_y += rough * slope * o.y;
       rough_z += rough * slope * o.z;
-      weight -= rough * slope * r2 * inverse_sqrt(max(r2, splat(1e-30f)));
       pull -= 2.0f * rough * 2.0f * slope * r2 / (r2 + kernel.softening());
     }
   }
@@ -103,7 +102,6 @@ void BodySamples::add(WallSum& total, Vec3 here, const Candidates& near, const K
   total.gradient.w += rest_density * sum(density);
   total.friction.w += sum(pull);
   total.no_slip_gradient += rest_density * Vec3{sum(rough_x), sum(rough_y), sum(rough_z)};
-  total.no_slip_velocity.w += rest_density * sum(weight);  // bodies stand still
 }
 
 std::size_t BodySamples::bytes() const {

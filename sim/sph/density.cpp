@@ -45,10 +45,7 @@ void boundary_sums(World& world) {
           f.boundary_gradient[i] = total.gradient;
           f.neighbour_number[i] = total.neighbours;
           if (friction) f.boundary_friction[i] = total.friction;
-          if (!no_slip) continue;
-          const Vec3 velocity = total.no_slip_velocity;
-          f.no_slip_gradient[i] = total.no_slip_gradient;
-          f.no_slip_velocity[i] = velocity.w > 0 ? 1 / velocity.w * velocity : Vec3{};
+          if (no_slip) f.no_slip_gradient[i] = total.no_slip_gradient;
         }
       }
     }
@@ -58,7 +55,6 @@ void boundary_sums(World& world) {
 void gradient_correction(World& world) {
   count_sweep(world);
   Fields& f = world.fields;
-  const bool flat = world.scene.dimension == 2;
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       f8 xx{}, yy{}, zz{}, yz{}, zx{}, xy{};
@@ -71,18 +67,11 @@ void gradient_correction(World& world) {
         zx -= slope * p.z * p.x;
         xy -= slope * p.x * p.y;
       });
-      const double volume = double{world.mass} / double{f.density[i]};
-      const double a = volume * sum(xx), b = volume * sum(yy), c = flat ? 1 : volume * sum(zz);
-      const double d = volume * sum(yz), e = volume * sum(zx), g = volume * sum(xy);
-      const double determinant = a * (b * c - d * d) - g * (g * c - d * e) + e * (g * d - b * e);
-      if (!(determinant > 0.3)) {
-        f.correction_diagonal[i] = {1, 1, 1};
-        f.correction_mixed[i] = {};
-        return;
-      }
-      const double inverse = 1 / determinant;
-      f.correction_diagonal[i] = to_float(inverse * Vec3d{b * c - d * d, a * c - e * e, a * b - g * g});
-      f.correction_mixed[i] = to_float(inverse * Vec3d{g * e - a * d, g * d - b * e, d * e - g * c});
+      const float volume = world.mass / f.density[i];
+      const SymmetricMatrix b = inverse_moments(volume * Vec3{sum(xx), sum(yy), sum(zz)},
+                                                volume * Vec3{sum(yz), sum(zx), sum(xy)}, world.scene.dimension);
+      f.correction_diagonal[i] = b.diagonal;
+      f.correction_mixed[i] = b.mixed;
     });
   });
 }

@@ -31,4 +31,26 @@ struct VectorSum {
   Vec3 total() const { return {sum(x), sum(y), sum(z)}; }
 };
 
+// xx, yy, zz and yz, zx, xy.
+struct SymmetricMatrix {
+  Vec3 diagonal{1, 1, 1}, mixed;
+
+  friend Vec3 operator*(const SymmetricMatrix& m, Vec3 a) {
+    const Vec3 d = m.diagonal, e = m.mixed;
+    return {d.x * a.x + e.z * a.y + e.y * a.z, e.z * a.x + d.y * a.y + e.x * a.z, e.y * a.x + e.x * a.y + d.z * a.z};
+  }
+};
+
+// The kernel-gradient correction B, inverse of the moments - sum V_j grad W_ij (x) x_ij; the unit matrix where the
+// neighbours lie too one-sided for it.
+inline SymmetricMatrix inverse_moments(Vec3 diagonal, Vec3 mixed, int dimension) {
+  const double a = diagonal.x, b = diagonal.y, c = dimension == 2 ? 1 : diagonal.z;
+  const double d = mixed.x, e = mixed.y, g = mixed.z;
+  const double determinant = a * (b * c - d * d) - g * (g * c - d * e) + e * (g * d - b * e);
+  if (!(determinant > 0.3)) return {};
+  const double inverse = 1 / determinant;
+  return {to_float(inverse * Vec3d{b * c - d * d, a * c - e * e, a * b - g * g}),
+          to_float(inverse * Vec3d{g * e - a * d, g * d - b * e, d * e - g * c})};
+}
+
 }  // namespace curlew

@@ -1,20 +1,39 @@
-// Derivatives of the velocity at one particle, in the difference form (Liu et al. 2020, Eq. 3, 6), with the surfaces
-// near it: beyond a no-slip surface the fluid moves as in a mirror around the surface's velocity, beyond a slip surface
-// its normal part does.
+// Derivatives of the velocity at one particle, in the difference form (Liu et al. 2020, Eq. 3, 6). Walls count as the
+// fluid's reflections in them, no-slip bodies as samples that stand still.
 #pragma once
 
 #include "sim/sph/pair_sums.h"
 
 namespace curlew {
 
-// What no-slip surfaces add to the curl, times density: a field that is `here`, and `beyond` at the surfaces.
-inline Vec3 no_slip_curl(const Fields& f, std::size_t i, Vec3 here, Vec3 beyond) {
-  return f.no_slip_gradient.empty() ? Vec3{} : cross(here - beyond, f.no_slip_gradient[i]);
+// Calls body(pairs, weight, reflection) for the neighbours of particle i as walls reflect them, itself among them;
+// weight is 1, and 0 for what fills a group up. Where no wall is near it costs a look at each face.
+template <class Images, class Body>
+inline void for_reflected_pairs(const World& world, std::size_t i, const Images& images, Body&& body) {
+  if (!world.walls.any()) return;
+  Reflection reflections[Walls::most_reflections];
+  const int number = world.walls.reflections(world.fields.position[i], reflections);
+  for (int k = 0; k < number; ++k) {
+    const Reflection& r = reflections[k];
+    const auto reflected = [&](Pairs p) {
+      p.x = r.sign.x * p.x + r.offset.x;
+      p.y = r.sign.y * p.y + r.offset.y;
+      p.z = r.sign.z * p.z + r.offset.z;
+      p.r2 = p.x * p.x + p.y * p.y + p.z * p.z;
+      return p;
+    };
+    for_pairs(world.neighbours, world.fields.position.data(), i, images,
+              [&](const Pairs& p) { body(reflected(p), p.r2 > 0.0f ? splat(1.0f) : f8{}, r); });
+    const auto self = static_cast<std::uint32_t>(i);
+    const std::uint32_t selves[8] = {self, self, self, self, self, self, self, self};
+    const f8 none{};
+    body(reflected(Pairs{none, none, none, none, none, selves}), f8{1}, r);
+  }
 }
 
-// The same for the velocity.
-inline Vec3 no_slip_curl(const Fields& f, std::size_t i) {
-  return f.no_slip_gradient.empty() ? Vec3{} : no_slip_curl(f, i, f.velocity[i], f.no_slip_velocity[i]);
+// The velocities of reflected neighbours.
+inline Vec8 reflect(const Vec8& v, Vec3 sign, Vec3 offset) {
+  return {sign.x * v.x + offset.x, sign.y * v.y + offset.y, sign.z * v.z + offset.z, v.w};
 }
 
 // curl v (1/s).
@@ -25,7 +44,13 @@ Vec3 velocity_curl(const World& world, std::size_t i, const Images& images) {
   VectorSum curl;
   for_pairs(world.neighbours, f.position.data(), i, images,
             [&](const Pairs& p) { curl.add_curl(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
-  return 1 / f.density[i] * (world.mass * curl.total() + no_slip_curl(f, i));
+  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+    const Vec8 other = reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset);
+    curl.add_curl(weight * world.kernel.slope(p.r2), v, other, p);
+  });
+  Vec3 total = world.mass * curl.total();
+  if (!f.no_slip_gradient.empty()) total += cross(v, f.no_slip_gradient[i]);
+  return 1 / f.density[i] * total;
 }
 
 // The gradients of v_x, v_y and v_z (1/s).
@@ -37,39 +62,39 @@ struct VelocityGradient {
   Vec3 along(Vec3 a) const { return {dot(a, x), dot(a, y), dot(a, z)}; }
 };
 
-template <class Images>
-VelocityGradient velocity_gradient(const World& world, std::size_t i, const Images& images) {
-  const Fields& f = world.fields;
-  const Vec3 v = f.velocity[i];
+// Sums for the velocity gradient and for the moments - sum V_j grad W_ij (x) x_ij of the neighbours, with which it is
+// made exact for linear fields on any arrangement (Randles & Libersky 1996; Bonet & Lok 1999).
+struct GradientSum {
   VectorSum x, y, z;
-  for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-    const Vec8 other = gather(f.velocity.data(), p.j);
-    const f8 slope = world.kernel.slope(p.r2);
+  VectorSum moments, mixed;  // xx, yy, zz; yz, zx, xy
+
+  void add(f8 slope, Vec3 v, const Vec8& other, const Pairs& p) {
     const f8 sx = slope * p.x, sy = slope * p.y, sz = slope * p.z;
     const f8 vx = other.x - v.x, vy = other.y - v.y, vz = other.z - v.z;
     x.add(vx * sx, vx * sy, vx * sz);
     y.add(vy * sx, vy * sy, vy * sz);
     z.add(vz * sx, vz * sy, vz * sz);
+    moments.add(sx * p.x, sy * p.y, sz * p.z);
+    mixed.add(sy * p.z, sz * p.x, sx * p.y);
+  }
+};
+
+template <class Images>
+VelocityGradient velocity_gradient(const World& world, std::size_t i, const Images& images) {
+  const Fields& f = world.fields;
+  const Vec3 v = f.velocity[i];
+  GradientSum sums;
+  for_pairs(world.neighbours, f.position.data(), i, images,
+            [&](const Pairs& p) { sums.add(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
+  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+    const Vec8 other = reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset);
+    sums.add(weight * world.kernel.slope(p.r2), v, other, p);
   });
   const float volume = world.mass / f.density[i];
-  VelocityGradient g{volume * x.total(), volume * y.total(), volume * z.total()};
-  if (!world.has_boundary()) return g;
-  Vec3 slip = f.boundary_gradient[i];
-  if (!f.no_slip_gradient.empty()) {
-    const Vec3 rough = f.no_slip_gradient[i], slide = -1 / f.density[i] * (v - f.no_slip_velocity[i]);
-    g.x += slide.x * rough;
-    g.y += slide.y * rough;
-    g.z += slide.z * rough;
-    slip = slip - rough;
-  }
-  const float size2 = dot(slip, slip);
-  if (size2 > 0) {
-    const Vec3 change = -dot(v, slip) / (size2 * f.density[i]) * slip;
-    g.x += change.x * slip;
-    g.y += change.y * slip;
-    g.z += change.z * slip;
-  }
-  return g;
+  const Vec3 moments = -volume * sums.moments.total(), mixed = -volume * sums.mixed.total();
+  const SymmetricMatrix correction = inverse_moments(moments, mixed, world.scene.dimension);
+  const auto corrected = [&](const VectorSum& s) { return volume * (correction * s.total()); };
+  return {corrected(sums.x), corrected(sums.y), corrected(sums.z)};
 }
 
 }  // namespace curlew

@@ -90,10 +90,6 @@ void Walls::add_face(WallSum& total, const Near& near) const {
     total.gradient.w += value;
     total.gradient[face.axis] += face.side * rate * slope;
     if (!face.no_slip) continue;
-    const float push = rate * slope;
-    total.no_slip_gradient[face.axis] += face.side * push;
-    total.no_slip_velocity += -push * face.velocity;
-    total.no_slip_velocity.w -= push;
     // 1 + s_b/a: two for the mirrored layer; bounded as Morris et al. do where a particle nears the plane.
     const float behind = (s - near.distance) / std::max(near.distance, 1e-6f * spacing_);
     const float pull = friction_.at(s).value * (1 + std::min(1.5f, behind));
@@ -117,13 +113,10 @@ void Walls::add_overlap(WallSum& total, const Near* const* near, int number) con
     const float s = std::sqrt(squared);
     const auto [value, slope] = flat_[dimension_ - number].at(s);
     const float slope_over_s = slope / std::max(s, 1e-6f * spacing_);
-    const bool no_slip = std::all_of(near, near + number, [](const Near* n) { return n->face->no_slip; });
     total.gradient.w += sign * value;
     for (int f = 0; f < number; ++f) {
-      const Face& face = *near[f]->face;
-      const float push = sign * face.side * depth[f].rate * slope_over_s * depth[f].distance;
-      total.gradient[face.axis] += push;
-      if (no_slip) total.no_slip_gradient[face.axis] += push;
+      total.gradient[near[f]->face->axis] +=
+          sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
     }
   }
 }
@@ -150,6 +143,34 @@ WallSum Walls::sum(Vec3 position) const {
     }
   }
   return total;
+}
+
+int Walls::reflections(Vec3 position, Reflection* found) const {
+  int number = 0;
+  for (const Face& face : faces_) {
+    const float x = position[face.axis] - face.plane;
+    if (std::abs(x) >= support_) continue;
+    const auto mirrored = [&](Reflection r) {
+      r.sign[face.axis] = -1;
+      r.offset[face.axis] = 2 * x;
+      if (face.no_slip) {
+        r.velocity_sign = -1.0f * r.velocity_sign;
+        r.velocity_offset = 2.0f * face.velocity - r.velocity_offset;
+        r.spin_sign = -1.0f * r.spin_sign;
+      } else {
+        r.velocity_sign[face.axis] *= -1;
+        r.velocity_offset[face.axis] *= -1;
+        for (int along = 0; along < 3; ++along) r.spin_sign[along] *= along == face.axis ? 1.0f : -1.0f;
+      }
+      return r;
+    };
+    // With all images in faces of other axes, for edges and corners.
+    for (int k = 0, before = number; k < before; ++k) {
+      if (found[k].sign[face.axis] > 0) found[number++] = mirrored(found[k]);
+    }
+    found[number++] = mirrored({});
+  }
+  return number;
 }
 
 bool Walls::hold(Vec3& position, Vec3& velocity) const {

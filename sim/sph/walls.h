@@ -59,9 +59,18 @@ class DistanceTable {
 struct WallSum {
   Vec3 gradient;  // w: density
   Vec3 friction;
-  Vec3 no_slip_gradient;
-  Vec3 no_slip_velocity;  // sum of velocities, each times a weight; w: the weights
+  Vec3 no_slip_gradient;  // bodies only: walls reflect
   float neighbours = 0;   // lattice points that would lie in the support behind the walls
+};
+
+// The fluid seen in a wall, or in two or three that meet: a neighbour at x_ij appears at sign x_ij + offset with the
+// velocity velocity_sign v + velocity_offset and the spin spin_sign omega (all component by component). A slip wall is
+// a mirror: of velocity it turns the part across, of spin, an axial vector, the part along. In a no-slip wall the whole
+// velocity is turned around the wall's, and the whole spin around none (Bender et al. 2018, section 7).
+struct Reflection {
+  Vec3 sign{1, 1, 1}, offset;
+  Vec3 velocity_sign{1, 1, 1}, velocity_offset;
+  Vec3 spin_sign{1, 1, 1};
 };
 
 class Walls {
@@ -73,6 +82,10 @@ class Walls {
   bool any() const { return !faces_.empty(); }
   bool any_no_slip() const;
   WallSum sum(Vec3 position) const;
+
+  // The reflections in which a particle at `position` has neighbours; returns their number, most_reflections at most.
+  int reflections(Vec3 position, Reflection* found) const;
+  static constexpr int most_reflections = 26;
 
   // A droplet too thin to feel the wall's pressure may reach the plane: it is held there and loses the velocity into
   // the wall. Returns whether it was.

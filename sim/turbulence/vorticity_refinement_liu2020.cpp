@@ -25,7 +25,7 @@ void find_loss(World& world) {
       const float volume = world.mass / f.density[i];
       Vec3 loss;
       if (takes_part(world, i) && f.predicted_vorticity[i].w > 0) {
-        loss = f.predicted_vorticity[i] - velocity_curl(world, i, images);
+        loss = f.predicted_vorticity[i] - velocity_gradient(world, i, images).curl();
       }
       loss.w = volume;
       f.lost_vorticity[i] = loss;
@@ -87,18 +87,12 @@ void refine_vorticity(World& world) {
 void predict_vorticity(World& world) {
   count_sweep(world);
   Fields& f = world.fields;
-  const bool flat = world.scene.dimension == 2;
   const auto dt = static_cast<float>(world.dt);
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
-      Vec3 zeta;
-      if (flat) {
-        zeta = velocity_curl(world, i, images);
-      } else {
-        const VelocityGradient gradient = velocity_gradient(world, i, images);
-        zeta = gradient.curl();
-        zeta += dt * gradient.along(zeta);
-      }
+      const VelocityGradient gradient = velocity_gradient(world, i, images);
+      Vec3 zeta = gradient.curl();
+      zeta += dt * gradient.along(zeta);
       zeta.w = 1;
       f.predicted_vorticity[i] = zeta;
     });
