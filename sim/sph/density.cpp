@@ -68,8 +68,9 @@ void gradient_correction(World& world) {
         xy -= slope * p.x * p.y;
       });
       const float volume = world.mass / f.density[i];
-      const SymmetricMatrix b = inverse_moments(volume * Vec3{sum(xx), sum(yy), sum(zz)},
-                                                volume * Vec3{sum(yz), sum(zx), sum(xy)}, world.scene.dimension);
+      const SymmetricMatrix b = gradient_correction(volume * Vec3{sum(xx), sum(yy), sum(zz)},
+                                                    volume * Vec3{sum(yz), sum(zx), sum(xy)}, world.scene.dimension)
+                                    .matrix;
       f.correction_diagonal[i] = b.diagonal;
       f.correction_mixed[i] = b.mixed;
     });

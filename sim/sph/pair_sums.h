@@ -42,15 +42,22 @@ struct SymmetricMatrix {
 };
 
 // The kernel-gradient correction B, inverse of the moments - sum V_j grad W_ij (x) x_ij; the unit matrix where the
-// neighbours lie too one-sided for it.
-inline SymmetricMatrix inverse_moments(Vec3 diagonal, Vec3 mixed, int dimension) {
+// neighbours lie too one-sided for it. The determinant of the moments is 1 in the midst of fluid, less at a surface.
+struct Correction {
+  SymmetricMatrix matrix;
+  float determinant = 0;
+};
+
+inline Correction gradient_correction(Vec3 diagonal, Vec3 mixed, int dimension) {
   const double a = diagonal.x, b = diagonal.y, c = dimension == 2 ? 1 : diagonal.z;
   const double d = mixed.x, e = mixed.y, g = mixed.z;
   const double determinant = a * (b * c - d * d) - g * (g * c - d * e) + e * (g * d - b * e);
-  if (!(determinant > 0.3)) return {};
+  Correction found{{}, static_cast<float>(determinant)};
+  if (!(determinant > 0.3)) return found;
   const double inverse = 1 / determinant;
-  return {to_float(inverse * Vec3d{b * c - d * d, a * c - e * e, a * b - g * g}),
-          to_float(inverse * Vec3d{g * e - a * d, g * d - b * e, d * e - g * c})};
+  found.matrix = {to_float(inverse * Vec3d{b * c - d * d, a * c - e * e, a * b - g * g}),
+                  to_float(inverse * Vec3d{g * e - a * d, g * d - b * e, d * e - g * c})};
+  return found;
 }
 
 }  // namespace curlew

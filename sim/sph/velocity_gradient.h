@@ -53,9 +53,11 @@ Vec3 velocity_curl(const World& world, std::size_t i, const Images& images) {
   return 1 / f.density[i] * total;
 }
 
-// The gradients of v_x, v_y and v_z (1/s).
+// The gradients of v_x, v_y and v_z (1/s), and how well the particle is surrounded: 1 in the midst of fluid and at a
+// wall, less at a surface.
 struct VelocityGradient {
   Vec3 x, y, z;
+  float surrounded = 0;
 
   Vec3 curl() const { return {z.y - y.z, x.z - z.x, y.x - x.y}; }
   // (a . grad) v
@@ -92,9 +94,9 @@ VelocityGradient velocity_gradient(const World& world, std::size_t i, const Imag
   });
   const float volume = world.mass / f.density[i];
   const Vec3 moments = -volume * sums.moments.total(), mixed = -volume * sums.mixed.total();
-  const SymmetricMatrix correction = inverse_moments(moments, mixed, world.scene.dimension);
-  const auto corrected = [&](const VectorSum& s) { return volume * (correction * s.total()); };
-  return {corrected(sums.x), corrected(sums.y), corrected(sums.z)};
+  const Correction correction = gradient_correction(moments, mixed, world.scene.dimension);
+  const auto corrected = [&](const VectorSum& s) { return volume * (correction.matrix * s.total()); };
+  return {corrected(sums.x), corrected(sums.y), corrected(sums.z), correction.determinant};
 }
 
 }  // namespace curlew

@@ -12,9 +12,11 @@ namespace {
 constexpr double cut = 0.995;    // of the support, so that lattice points two spacings off are out for certain
 constexpr double closest = 0.5;  // pairs nearer than this, in spacings, count as that far
 
-bool takes_part(const World& world, std::size_t i) {
-  return world.fields.neighbour_number[i] >= world.least_neighbours();
-}
+// How well a particle has to be surrounded for its vorticity to be believed. Nearer to the surface the error of the
+// curl changes with every acceleration by pressure, and refinement would take it for a loss or a gain: with all
+// particles the dam break (5k, 2 to 8 s) has 15 % less kinetic energy than without refinement, from 0.7 on 8 %, from
+// 0.9 on 2 %, from 0.95 on 1 % more. Inside nothing changes (Taylor-Green vortices: the same to 0.2 %).
+constexpr float surrounded = 0.95f;
 
 // dzeta = zeta' - curl v~, with the volume of the particle in w.
 void find_loss(World& world) {
@@ -24,8 +26,9 @@ void find_loss(World& world) {
     parallel_for(world.count, [&](std::size_t i) {
       const float volume = world.mass / f.density[i];
       Vec3 loss;
-      if (takes_part(world, i) && f.predicted_vorticity[i].w > 0) {
-        loss = f.predicted_vorticity[i] - velocity_gradient(world, i, images).curl();
+      if (f.predicted_vorticity[i].w > 0) {
+        const VelocityGradient gradient = velocity_gradient(world, i, images);
+        if (gradient.surrounded >= surrounded) loss = f.predicted_vorticity[i] - gradient.curl();
       }
       loss.w = volume;
       f.lost_vorticity[i] = loss;
@@ -65,7 +68,7 @@ void add_curl_of_stream_function(World& world) {
   const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
-      if (!takes_part(world, i)) return;
+      if (f.neighbour_number[i] < world.least_neighbours()) return;
       const Vec3 psi = f.stream_function[i];
       VectorSum curl;
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
@@ -93,7 +96,7 @@ void predict_vorticity(World& world) {
       const VelocityGradient gradient = velocity_gradient(world, i, images);
       Vec3 zeta = gradient.curl();
       zeta += dt * gradient.along(zeta);
-      zeta.w = 1;
+      zeta.w = gradient.surrounded >= surrounded ? 1.0f : 0.0f;
       f.predicted_vorticity[i] = zeta;
     });
   });

@@ -15,8 +15,10 @@
 //                           wave length 6d 0.8 comes back, of one with 32d 0.06 (see the tests).
 // reconstruction = poisson: see vector_potential.h.
 //
-// Particles with fewer neighbours than the divergence solve asks for (spray) give and get nothing: their curl is that
-// of a handful of points. A particle that has no prediction yet (the first step, or just emitted) gets nothing either.
+// Curls are taken with the kernel-gradient correction and with the fluid's reflections in walls, so that they are exact
+// for linear velocities; particles at a free surface, where that is not enough, lose nothing as far as refinement
+// knows, and so do those that have no prediction yet (the first step, or just emitted). Spray, as the divergence solve
+// counts it, gets nothing.
 #pragma once
 
 #include "sim/core/world.h"
