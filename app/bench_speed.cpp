@@ -3,18 +3,10 @@
 
 #include <chrono>
 #include <cstdio>
-#include <map>
 
-#include "app/assets.h"
-#include "app/commands.h"
+#include "app/bench.h"
 #include "app/numbers.h"
 #include "app/progress.h"
-#include "app/setup.h"
-#include "sim/core/error.h"
-#include "sim/core/passes.h"
-#include "sim/scene/bundled.h"
-#include "sim/scene/reader.h"
-#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -35,13 +27,6 @@ Case named_case(const std::string& text) {
   return {text, largest_time};
 }
 
-struct PassTimes : PassObserver {
-  std::map<std::string, double> ms;
-  void after(const Pass& pass, const World&, double milliseconds) override {
-    ms[std::string(pass.name)] += milliseconds;
-  }
-};
-
 struct Measured {
   std::size_t particles = 0;
   double steps = 0, seconds = 0, simulated = 0, pressure_iterations = 0, divergence_iterations = 0;
@@ -53,10 +38,14 @@ struct Measured {
 };
 
 Scene case_scene(const Case& c, const BenchOptions& options) {
-  Scene scene = read_scene(find_scene("dam_break", assets_folder()));
-  scene.parameters.viscosity.nu = 0.01;
-  apply_settings(scene.parameters, options.settings);
-  return with_particles(scene, parse_particle_number("--cases", c.particles));
+  return bench_scene("dam_break", 0.01, c.particles, options);
+}
+
+std::vector<Case> cases_of(const BenchOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& text : options.cases) cases.push_back(named_case(text));
+  if (cases.empty()) cases = {named_case("24k"), named_case("97k")};
+  return cases;
 }
 
 Measured measure(const Scene& scene, double time, std::int64_t most_steps, const std::string& label) {
@@ -112,7 +101,10 @@ void print_passes(const std::vector<Measured>& all) {
   }
 }
 
-int speed(const BenchOptions& options, const std::vector<Case>& cases) {
+}  // namespace
+
+int bench_speed(const BenchOptions& options) {
+  const std::vector<Case> cases = cases_of(options);
   std::printf("dam_break, viscosity.nu = 0.01, %d threads, %s\n\n", omp_get_max_threads(), CURLEW_ISA_NAME);
   std::printf(
       "| work | particles | simulated | steps | mean dt | iterations | ms a step | particle-steps a second | ns a "
@@ -126,10 +118,7 @@ int speed(const BenchOptions& options, const std::vector<Case>& cases) {
     print_case("to tolerance", all.back());
     fast_enough = fast_enough && !(options.at_least && all.back().rate() < *options.at_least);
     Scene fixed = scene;
-    PressureParameters& p = fixed.parameters.pressure;
-    p.max_iterations = 13;
-    p.max_divergence_iterations = 2;
-    p.density_tolerance = p.divergence_tolerance = 1e-7;
+    fix_iterations(fixed.parameters.pressure);
     print_case("fixed 13 + 2", measure(fixed, c.time, 20, c.particles + " fixed"));
   }
   print_passes(all);
@@ -137,7 +126,8 @@ int speed(const BenchOptions& options, const std::vector<Case>& cases) {
   return fast_enough ? 0 : 1;
 }
 
-int memory(const BenchOptions& options, const std::vector<Case>& cases) {
+int bench_memory(const BenchOptions& options) {
+  const std::vector<Case> cases = cases_of(options);
   std::printf("| particles | body samples | solver bytes a particle | after 20 steps |\n|---|---|---|---|\n");
   for (const Case& c : cases) {
     World world = make_world(case_scene(c, options));
@@ -149,16 +139,6 @@ int memory(const BenchOptions& options, const std::vector<Case>& cases) {
     std::printf("| %zu | %zu | %.0f | %.0f |\n", world.count, world.bodies.count(), before, bytes());
   }
   return 0;
-}
-
-}  // namespace
-
-int bench_command(const BenchOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
-  std::vector<Case> cases;
-  for (const std::string& text : options.cases) cases.push_back(named_case(text));
-  if (cases.empty()) cases = {named_case("24k"), named_case("97k")};
-  return options.name == "speed" ? speed(options, cases) : memory(options, cases);
 }
 
 }  // namespace curlew
