@@ -1,5 +1,7 @@
 // `curlew bench energy`: the energy figures of Liu et al. 2020 (Fig. 7 and 10), each method beside plain DFSPH, with
 // and without viscosity. Hours of work at their size, so what is complete in the folder is not run again.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -129,23 +131,25 @@ bool run_missing(const std::vector<Series>& all) {
   for (const Job& job : jobs) total += job.series->end;
   Progress progress(false);
   for (std::size_t k = 0; k < jobs.size(); ++k) {
-    const auto& [series, method, nu] = jobs[k];
-    Scene scene = series->scene;
+    const Series& series = *jobs[k].series;
+    const Method& method = jobs[k].method;
+    const double nu = jobs[k].nu;
+    Scene scene = series.scene;
     scene.parameters.viscosity.nu = nu;
     apply_method(scene.parameters, method);
     char label[120];
-    std::snprintf(label, sizeof label, "run %zu of %zu: %s, nu %g, %s", k + 1, jobs.size(), series->what.name.c_str(),
+    std::snprintf(label, sizeof label, "run %zu of %zu: %s, nu %g, %s", k + 1, jobs.size(), series.what.name.c_str(),
                   nu, method_label(method).c_str());
     const auto show = [&](double time) {
-      const double here = std::min(time, series->end);
+      const double here = std::min(time, series.end);
       progress.show((done + here) / total, label + (", t " + number_text(std::round(100 * here) / 100) + " s"));
       return !interrupted();
     };
     EnergyHistory plain;
-    if (!method.is_plain()) plain = read_energies(series->file(Method{}, nu));
+    if (!method.is_plain()) plain = read_energies(series.file(Method{}, nu));
     const EnergyHistory* reference = method.is_plain() ? nullptr : &plain;
-    if (!simulate_energies(scene, series->end, reference, series->file(method, nu), show)) return false;
-    done += series->end;
+    if (!simulate_energies(scene, series.end, reference, series.file(method, nu), show)) return false;
+    done += series.end;
   }
   return true;
 }

@@ -1,6 +1,6 @@
 // `curlew bench overhead`: what each turbulence method costs over plain DFSPH in flowing water, and what its passes
-// cost in sweeps over the neighbours. Each method is timed beside DFSPH from a copy of the same state, in turns, so
-// that whatever else the machine does meets both.
+// cost in sweeps over the neighbours. Two copies of one state, one with the method, take their steps in turns, so that
+// whatever else the machine does meets both.
 #include <omp.h>
 
 #include <algorithm>
@@ -17,10 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int pairs = 5;
+constexpr int pairs = 5;           // of copies
 constexpr int settling_steps = 3;  // a model that was off a moment ago has nothing to work on in its first step
 constexpr int timed_steps = 10;
-constexpr int sweep_repeats = 7;
 
 // The passes of a model; vorticity counts where only confinement asks for it, as here.
 constexpr const char* model_passes[] = {
@@ -33,58 +32,65 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-struct Timing {
-  double ms = 0, models = 0, sweep = 0;  // ms: of a step, of the models' passes in it, of one curl of the velocity
-  double pressure_iterations = 0, divergence_iterations = 0;  // of a step
-  PassTimes passes;
-};
+// A copy of the state that takes steps, and what they cost.
+struct Runner {
+  World world;
+  Plan plan;
+  std::vector<double> ms, models, sweep;  // of each step: all of it, the models' passes, one curl of the velocity
+  std::map<std::string, double> pass_ms;  // of all steps
+  double pressure_iterations = 0, divergence_iterations = 0;  // of all steps
 
-// One curl of the velocity over the lists that the last step left.
-double sweep_time(World& world) {
-  allocate(world, make_plan(world, {FieldId::vorticity}));
-  std::vector<double> times;
-  for (int k = 0; k < sweep_repeats; ++k) {
+  Runner(const World& start, const Method& method, bool fixed) : world(start) {
+    apply_method(world.scene.parameters, method);
+    if (fixed) fix_iterations(world.scene.parameters.pressure);
+    plan = make_plan(world);
+    prepare(world, plan);
+    allocate(world, make_plan(world, {FieldId::vorticity}));
+    for (int k = 0; k < settling_steps; ++k) step(world, plan);
+  }
+
+  void take_step() {
+    PassTimes passes;
+    const auto begin = Clock::now();
+    step(world, plan, &passes);
+    ms.push_back(milliseconds_since(begin));
+    models.push_back(0);
+    for (const char* name : model_passes) {
+      pass_ms[name] += passes.ms[name];
+      models.back() += passes.ms[name];
+    }
+    pressure_iterations += world.report.pressure_iterations;
+    divergence_iterations += world.report.divergence_iterations;
+    time_sweep();
+  }
+
+  // Over the lists that the step left.
+  void time_sweep() {
     const auto begin = Clock::now();
     compute_vorticity(world);
-    times.push_back(milliseconds_since(begin));
+    sweep.push_back(milliseconds_since(begin));
   }
-  return median(times);
-}
+};
 
-Timing measure(const World& start, const Method& method, bool fixed) {
-  World world = start;
-  apply_method(world.scene.parameters, method);
-  if (fixed) fix_iterations(world.scene.parameters.pressure);
-  const Plan plan = make_plan(world);
-  prepare(world, plan);
-  for (int k = 0; k < settling_steps; ++k) step(world, plan);
-  Timing timing;
-  const auto begin = Clock::now();
-  for (int k = 0; k < timed_steps; ++k) {
-    step(world, plan, &timing.passes);
-    timing.pressure_iterations += world.report.pressure_iterations / double{timed_steps};
-    timing.divergence_iterations += world.report.divergence_iterations / double{timed_steps};
-  }
-  timing.ms = milliseconds_since(begin) / timed_steps;
-  for (const char* name : model_passes) timing.models += timing.passes.ms[name] / timed_steps;
-  timing.sweep = sweep_time(world);
-  return timing;
-}
-
-// A method beside DFSPH, over all pairs.
+// A method beside DFSPH, a number for each pair of copies.
 struct Comparison {
   std::vector<double> ratio, ms, plain_ms, models, sweeps, sweep_ms;
-  Timing last, last_plain;  // of the last pair, for the iterations
+  std::map<std::string, double> pass_ms;  // a step
+  double iterations[2] = {}, plain_iterations[2] = {};
 
-  void add(const Timing& plain, const Timing& with) {
-    ratio.push_back(with.ms / plain.ms);
-    ms.push_back(with.ms);
-    plain_ms.push_back(plain.ms);
-    models.push_back(with.models);
-    // Both sweeps are of the same cost; their mean stands nearer to the time at which the passes were measured.
-    sweep_ms.push_back((with.sweep + plain.sweep) / 2);
-    sweeps.push_back(with.models / sweep_ms.back());
-    last = with, last_plain = plain;
+  void add(const Runner& plain, const Runner& with) {
+    ms.push_back(median(with.ms));
+    plain_ms.push_back(median(plain.ms));
+    ratio.push_back(ms.back() / plain_ms.back());
+    models.push_back(median(with.models));
+    sweep_ms.push_back(median(with.sweep));
+    sweeps.push_back(models.back() / sweep_ms.back());
+    constexpr double steps = double{pairs} * timed_steps;
+    for (const auto& [name, total] : with.pass_ms) pass_ms[name] += total / steps;
+    iterations[0] += with.pressure_iterations / steps;
+    iterations[1] += with.divergence_iterations / steps;
+    plain_iterations[0] += plain.pressure_iterations / steps;
+    plain_iterations[1] += plain.divergence_iterations / steps;
   }
 };
 
@@ -105,11 +111,12 @@ std::vector<Comparison> compare(const World& start, const std::vector<Method>& m
   Progress progress(false);
   for (int pair = 0; pair < pairs; ++pair) {
     for (std::size_t k = 0; k < methods.size(); ++k) {
-      // The order turns over, so that a machine that slows down or speeds up does not favour one of the two.
-      const bool plain_first = pair % 2 == 0;
-      const Timing first = measure(start, plain_first ? Method{} : methods[k], fixed);
-      const Timing second = measure(start, plain_first ? methods[k] : Method{}, fixed);
-      all[k].add(plain_first ? first : second, plain_first ? second : first);
+      Runner plain(start, {}, fixed), with(start, methods[k], fixed);
+      for (int n = 0; n < timed_steps; ++n) {
+        (n % 2 == 0 ? plain : with).take_step();
+        (n % 2 == 0 ? with : plain).take_step();
+      }
+      all[k].add(plain, with);
       const double done = pair + static_cast<double>(k + 1) / static_cast<double>(methods.size());
       progress.show(done / pairs, (fixed ? "fixed iterations, " : "to tolerance, ") + method_label(methods[k]));
     }
@@ -132,8 +139,8 @@ void print_times(const char* title, const std::vector<Method>& methods, const st
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Comparison& c = all[k];
     std::printf("| %s | %.1f | %.1f | %s | %.1f + %.1f | %.1f + %.1f |\n", method_label(methods[k]).c_str(),
-                median(c.plain_ms), median(c.ms), range_text(c.ratio).c_str(), c.last.pressure_iterations,
-                c.last.divergence_iterations, c.last_plain.pressure_iterations, c.last_plain.divergence_iterations);
+                median(c.plain_ms), median(c.ms), range_text(c.ratio).c_str(), c.iterations[0], c.iterations[1],
+                c.plain_iterations[0], c.plain_iterations[1]);
   }
 }
 
@@ -143,17 +150,16 @@ void print_sweeps(const std::vector<Method>& methods, const std::vector<Comparis
   std::printf(
       "\nThe models' passes, at fixed iterations; one curl of the velocity over the same lists takes %.2f ms:\n\n",
       median(sweeps));
-  std::printf("| method | passes, ms a step | in curls, median | limit | pass by pass, ms |\n|---|---|---|---|---|\n");
+  std::printf(
+      "| method | ms a step, median | in curls, median | at most | pass by pass, mean ms |\n|---|---|---|---|---|\n");
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::printf("| %s | %.2f | %.2f | %g |", method_label(methods[k]).c_str(), median(all[k].models),
                 median(all[k].sweeps), sweep_limit(methods[k]));
     const char* separator = " ";
     for (const char* name : model_passes) {
-      const auto& ms = all[k].last.passes.ms;
-      if (const auto found = ms.find(name); found != ms.end() && found->second > 0) {
-        std::printf("%s%s %.2f", separator, name, found->second / timed_steps);
-        separator = ", ";
-      }
+      if (!(all[k].pass_ms.at(name) > 0)) continue;
+      std::printf("%s%s %.2f", separator, name, all[k].pass_ms.at(name));
+      separator = ", ";
     }
     std::printf(" |\n");
   }

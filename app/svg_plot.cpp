@@ -13,7 +13,8 @@ namespace {
 
 // Layout, in pixels. Readable where a page shows the picture at two thirds of its size.
 constexpr double panel_width = 470, panel_height = 360, left = 88, top = 88, gap = 100, bottom = 92;
-constexpr double legend_line = 27, legend_sample = 44, text_size = 16, small_size = 12, letter = 0.56 * text_size;
+constexpr double legend_line = 27, legend_sample = 44, text_size = 16, small_size = 12, small_line = 16,
+                 letter = 0.56 * text_size;
 constexpr const char* ink = "#333333";
 constexpr const char* grid_colour = "#e3e3e3";
 
@@ -48,6 +49,12 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
                     const char* more = "") {
   return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"%g\"%s>", x, y, anchor, size, more) +
          escaped(text) + "</text>\n";
+}
+
+// About; letters of two and three bytes count once.
+double text_width(const std::string& text) {
+  return letter * static_cast<double>(std::count_if(
+                      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 // An axis that knows its range: on a logarithmic one, in powers of ten.
@@ -205,12 +212,14 @@ std::string grid_and_labels(const PlotPanel& panel, const Scale& x, const Scale&
     lines += format("M%.1f %.1fV%.1f", at, y.begin, upper);
     labels += text_at(at, y.begin + 24, tick.label, "middle");
   }
+  double widest = 0;
   for (const Tick& tick : ticks_of(y)) {
     const double at = y.pixel(tick.value);
+    widest = std::max(widest, text_width(tick.label));
     lines += format("M%.1f %.1fH%.1f", x.begin, at, right);
     labels += text_at(x.begin - 9, at + 5.5, tick.label, "end");
   }
-  const double middle = x.begin + x.length / 2, height = y.begin + y.length / 2, beside = x.begin - 66;
+  const double middle = x.begin + x.length / 2, height = y.begin + y.length / 2, beside = x.begin - widest - 26;
   labels += text_at(middle, y.begin + 50, panel.x.title, "middle");
   labels += text_at(beside, height, panel.y.title, "middle", text_size,
                     format(" transform=\"rotate(-90 %.1f %.1f)\"", beside, height).c_str());
@@ -251,6 +260,22 @@ std::string legend_text(const std::vector<const PlotSeries*>& entries, double be
   return out;
 }
 
+// The small print in lines that fit, broken at blanks.
+std::vector<std::string> wrapped(const std::string& text, double width) {
+  const auto most = static_cast<std::size_t>(width / (0.61 * small_size));
+  std::vector<std::string> lines;
+  std::string rest = text;
+  while (rest.size() > most && rest.find(' ') != std::string::npos) {
+    std::size_t cut = rest.rfind(' ', most);
+    if (cut == std::string::npos || cut == 0) cut = rest.find(' ', 1);
+    if (cut == std::string::npos) break;
+    lines.push_back(rest.substr(0, cut));
+    rest = rest.substr(cut + 1);
+  }
+  lines.push_back(rest);
+  return lines;
+}
+
 }  // namespace
 
 LineStyle line_style(std::size_t k) {
@@ -264,14 +289,16 @@ LineStyle line_style(std::size_t k) {
 
 std::string svg_text(const Plot& plot) {
   const auto entries = legend_entries(plot);
-  std::size_t longest = 0;
-  for (const PlotSeries* series : entries) longest = std::max(longest, series->name.size());
+  double longest = 0;
+  for (const PlotSeries* series : entries) longest = std::max(longest, text_width(series->name));
   const double panels = static_cast<double>(plot.panels.size());
   const double end_of_panels = left + panels * panel_width + std::max(0.0, panels - 1) * gap;
-  const double legend = entries.empty() ? 0 : legend_sample + 33 + letter * static_cast<double>(longest);
+  const double legend = entries.empty() ? 0 : legend_sample + 33 + longest;
   const double width = end_of_panels + 24 + legend;
   const double legend_end = top + legend_line * static_cast<double>(entries.size());
-  const double height = std::max(top + panel_height, legend_end) + bottom;
+  const std::vector<std::string> small_print = wrapped(plot.command, width - 2 * left);
+  const double height =
+      std::max(top + panel_height, legend_end) + bottom + small_line * static_cast<double>(small_print.size() - 1);
   std::string out = format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
       "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" fill=\"%s\">\n"
@@ -282,7 +309,11 @@ std::string svg_text(const Plot& plot) {
     out += panel_text(plot.panels[k], left + static_cast<double>(k) * (panel_width + gap));
   }
   out += legend_text(entries, end_of_panels + 24);
-  out += text_at(left, height - 14, plot.command, "start", small_size, " fill=\"#777777\" font-family=\"monospace\"");
+  double y = height - 14 - small_line * static_cast<double>(small_print.size() - 1);
+  for (const std::string& line : small_print) {
+    out += text_at(left, y, line, "start", small_size, " fill=\"#777777\" font-family=\"monospace\"");
+    y += small_line;
+  }
   return out + "</svg>\n";
 }
 
