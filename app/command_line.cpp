@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/bench.h"
 #include "app/commands.h"
 #include "app/numbers.h"
 #include "sim/core/error.h"
@@ -155,23 +156,45 @@ void add_run_options(CLI::App& app, RunOptions& o) {
 }
 
 void add_bench_options(CLI::App& app, BenchOptions& o) {
-  app.add_option_function<std::string>(
-         "NAME",
-         [&](const std::string& t) {
-           o.name = parse_word("the benchmark", t, {"speed", "memory"});
-         },
-         "speed or memory")
-      ->required();
-  app.add_option("--cases", o.cases, "Particle numbers (24k 97k)");
+  std::vector<std::string> names;
+  std::string help = "Which:";
+  for (const BenchRow& row : bench_table()) {
+    names.push_back(row.name);
+    help += "\n" + row.name + ": " + row.about;
+  }
+  const auto name = [&o, names](const std::string& t) { o.name = parse_word("the benchmark", t, names); };
+  app.add_option_function<std::string>("NAME", name, help)->required();
+  app.add_option("--cases", o.cases, "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
       "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
   app.add_option_function<std::string>(
       "--share", [&](const std::string& t) { o.time_share = parse_positive("--share", t, ""); },
-      "Run this share of each case's time (1)");
+      "speed: run this share of each case's time (1)");
   app.add_option_function<std::string>(
       "--at-least", [&](const std::string& t) { o.at_least = parse_positive("--at-least", t, ""); },
-      "Exit 1 where a case makes fewer million particle-steps a second");
+      "speed: exit 1 where a case makes fewer million particle-steps a second");
+  app.add_option("--scenes", o.scenes, "energy: dam_break, hemisphere (both)");
+  app.add_option("--methods", o.methods,
+                 "energy, overhead: dfsph, vr1.0, poisson1.0, mp0.05, vc0.1 with any strength, or sums such as "
+                 "vr1.0+mp0.05 (those of the paper)");
+  app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05)");
+  app.add_option_function<std::string>(
+      "--time", [&](const std::string& t) { o.time = parse_positive("--time", t, "seconds"); },
+      "energy: simulated seconds (12, hemisphere 20); overhead: seconds before it measures (0.4)");
+  add_path(app, "--out", o.out, "energy: folder (out/energy); runs that are complete in it are not run again");
+}
+
+// An option that the benchmark would not read.
+void check_bench_options(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> heeded = bench_row(name).options;
+  for (const char* always : {"NAME", "--set", "--threads"}) heeded.emplace_back(always);
+  for (const CLI::Option* option : app.get_options()) {
+    const bool known = std::find(heeded.begin(), heeded.end(), option->get_name()) != heeded.end();
+    if (option->count() > 0 && !known) {
+      throw InputError("curlew bench " + name + " takes no " + option->get_name() + "; see `curlew bench --help`");
+    }
+  }
 }
 
 std::string called(const CLI::App& app) { return app.get_parent() == nullptr ? "curlew" : "curlew " + app.get_name(); }
@@ -230,6 +253,7 @@ int dispatch(int argc, char** argv) {
   RunOptions run;
   BenchOptions bench;
   for (int k = 0; k < argc; ++k) run.command += (k == 0 ? "" : " ") + std::string(k == 0 ? "curlew" : argv[k]);
+  bench.command = run.command;
 
   CLI::App* gui = app.add_subcommand("gui", "Open the window");
   add_common_options(*gui, run);
@@ -238,7 +262,7 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run_app, run);
   CLI::App* check = app.add_subcommand("check", "Read a scene and say what it holds");
   add_common_options(*check, run);
-  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory");
+  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, energy, overhead");
   add_bench_options(*bench_app, bench);
   CLI::App* scenes = app.add_subcommand("scenes", "List the bundled scenes");
   CLI::App* params = app.add_subcommand("params", "List all parameters");
@@ -257,7 +281,10 @@ int dispatch(int argc, char** argv) {
   }
   if (run_app->parsed()) return run_command(run);
   if (check->parsed()) return check_command(run);
-  if (bench_app->parsed()) return bench_command(bench);
+  if (bench_app->parsed()) {
+    check_bench_options(*bench_app, bench.name);
+    return bench_command(bench);
+  }
   if (scenes->parsed()) return scenes_command();
   if (doctor->parsed()) return doctor_command();
   if (params->parsed()) {

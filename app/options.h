@@ -33,11 +33,15 @@ struct RunOptions {
 
 struct BenchOptions {
   std::string name;
-  std::vector<std::string> cases;  // particle numbers
-  std::vector<std::string> settings;
+  std::vector<std::string> cases;                // particle numbers
+  std::vector<std::string> settings;             // key=value
+  std::vector<std::string> scenes, methods, nu;  // empty: the benchmark's own
+  std::optional<double> time;                    // s
+  std::string out;                               // empty: out/NAME
   int threads = 0;
   double time_share = 1;           // of each case's time, for a quick look
   std::optional<double> at_least;  // millions of particle-steps a second: a gate
+  std::string command;             // the whole line, for what is written
 };
 
 }  // namespace curlew

@@ -29,7 +29,8 @@ TEST_CASE("dam_break takes the spacings of the published figures", "[sampling]")
 }
 
 TEST_CASE("other scenes come near the number asked for", "[sampling]") {
-  for (const std::string name : {"pillars", "sphere_drop", "free_fall", "dam_break_2d", "rock", "still_tank"}) {
+  for (const std::string name :
+       {"pillars", "hemisphere", "sphere_drop", "free_fall", "dam_break_2d", "rock", "still_tank"}) {
     for (const double n : {3e3, 2e4}) {
       const auto count = static_cast<double>(count_particles(with_particles(bundled(name), n)));
       INFO(name << " for " << n << " gives " << count);

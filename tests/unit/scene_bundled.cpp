@@ -20,7 +20,7 @@ const std::filesystem::path assets = CURLEW_ASSETS_DIR;
 
 TEST_CASE("every bundled scene reads, says what it is, and holds particles", "[scene]") {
   const auto scenes = bundled_scenes(assets);
-  CHECK(scenes.size() >= 8);
+  CHECK(scenes.size() >= 9);
   for (const SceneInfo& info : scenes) {
     INFO(info.name);
     CHECK(info.about.size() > 30);
@@ -33,6 +33,7 @@ TEST_CASE("every bundled scene reads, says what it is, and holds particles", "[s
   const auto count = [](const std::string& name) { return count_particles(read_scene(find_scene(name, assets))); };
   CHECK(count("dam_break") == 29 * 29 * 29);
   CHECK(count("still_tank") == 29 * 29 * 29);
+  CHECK(count("hemisphere") == 24 * 36 * 36);
   CHECK(count("taylor_green") == 50 * 50);
   CHECK(count("dam_break_2d") == 60 * 60);
   CHECK(count("pillars") > 35000);
