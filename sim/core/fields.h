@@ -36,7 +36,7 @@ namespace curlew {
         "Gradient of the density that boundaries add; w: that density itself, in kg/m^3.")                            \
   FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                    \
         "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                  \
-  FIELD(no_slip_gradient, Vec3, "kg/m^4", scratch, "The share of no-slip bodies in boundary_gradient.")                 \
+  FIELD(no_slip_gradient, Vec3, "kg/m^4", scratch, "The share of no-slip bodies in boundary_gradient.")               \
   FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")          \
   FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")      \
   FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \

@@ -36,6 +36,10 @@ bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
 bool confines_vorticity(const World& w) { return w.parameters().vorticity_confinement.epsilon > 0; }
 bool is_micropolar(const World& w) { return transfer_coefficient(w.parameters()) != 0; }
 bool refines_vorticity(const World& w) { return w.parameters().vorticity_refinement.alpha > 0; }
+bool solves_poisson(const World& w) {
+  using enum VorticityRefinementParameters::reconstruction_t;
+  return refines_vorticity(w) && w.parameters().vorticity_refinement.reconstruction == poisson;
+}
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
@@ -173,6 +177,7 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   FieldSet unused;
   if (!is_filled(world)) unused = unused | filled_fields;
   if (!world.has_boundary()) unused = unused | boundary_fields;
+  if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
   const bool curls = refines_vorticity(world) || confines_vorticity(world) || is_micropolar(world);
@@ -285,6 +290,11 @@ void allocate(World& world, const Plan& plan) {
       array = {};
     }
   });
+  if (!solves_poisson(world)) {
+    world.potential = {};
+  } else if (world.potential.empty()) {
+    world.potential = VectorPotential(world.scene);
+  }
 }
 
 void prepare(World& world, const Plan& plan) {

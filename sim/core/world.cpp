@@ -40,7 +40,7 @@ World make_world(const Scene& scene, std::uint64_t seed) {
 }
 
 std::size_t allocated_bytes(const World& world) {
-  std::size_t bytes = world.neighbours.bytes() + world.grid.bytes() + world.bodies.bytes();
+  std::size_t bytes = world.neighbours.bytes() + world.grid.bytes() + world.bodies.bytes() + world.potential.bytes();
   const auto add = [&](const FieldRow&, const auto& array) { bytes += array.capacity() * sizeof(array[0]); };
   for_each_field(world.fields, add);
   for_each_field(world.sort_space, add);

@@ -13,6 +13,7 @@
 #include "sim/sph/neighbours.h"
 #include "sim/sph/obstacles.h"
 #include "sim/sph/walls.h"
+#include "sim/turbulence/vector_potential.h"
 
 namespace curlew {
 
@@ -65,6 +66,8 @@ struct World {
   StepReport report;
   WorkCount work;
   Backup backup;
+
+  VectorPotential potential;  // empty while no pass needs it
 
   // Reused by the sort.
   std::vector<std::uint32_t> order;

@@ -79,10 +79,22 @@ void add_curl_of_stream_function(World& world) {
   });
 }
 
+// The same from the potential on the grid.
+void add_curl_of_potential(World& world) {
+  Fields& f = world.fields;
+  world.potential.solve(f.position, f.lost_vorticity);
+  const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
+  parallel_for(world.count, [&](std::size_t i) {
+    if (f.neighbour_number[i] < world.least_neighbours()) return;
+    f.velocity[i] += alpha * world.potential.curl(f.position[i]);
+  });
+}
+
 }  // namespace
 
 void refine_vorticity(World& world) {
   find_loss(world);
+  if (!world.potential.empty()) return add_curl_of_potential(world);
   sum_stream_function(world);
   add_curl_of_stream_function(world);
 }

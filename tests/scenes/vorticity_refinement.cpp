@@ -31,12 +31,10 @@ double response(const Scene& scene, double wave_length) {
   for (std::size_t i = 0; i < world.count; ++i) {
     world.fields.velocity[i] = to_float({std::sin(k * double{world.fields.position[i].y}), 0, 0});
   }
-  prepare(world, make_plan(world, {FieldId::vorticity}));
-  for (std::size_t i = 0; i < world.count; ++i) {
-    world.fields.predicted_vorticity[i] = world.fields.vorticity[i];
-    world.fields.predicted_vorticity[i].w = 1;
-    world.fields.velocity[i] = {};
-  }
+  prepare(world, make_plan(world));
+  world.dt = 0;
+  predict_vorticity(world);
+  std::fill(world.fields.velocity.begin(), world.fields.velocity.end(), Vec3{});
   refine_vorticity(world);
   double back = 0;
   for (std::size_t i = 0; i < world.count; ++i) {
@@ -58,6 +56,18 @@ TEST_CASE("the paper's sum gives back the share of each wave length that theory 
       const double expected = dimension == 3 ? in_3d[k] : in_2d[k], found = response(scene, spacings[k] * 1e-3);
       INFO(dimension << "D, wave length " << spacings[k] << " d: " << found);
       CHECK(std::abs(found - expected) < 0.02);
+    }
+  }
+}
+
+TEST_CASE("the solve on a grid gives back waves of 6 spacings and more, and never too much", "[refinement]") {
+  for (int dimension : {2, 3}) {
+    const Scene scene = tall_lattice(dimension, Reconstruction::poisson);
+    for (double spacings : {2.0, 3.0, 4.0, 4.8, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0}) {
+      const double found = response(scene, spacings * 1e-3);
+      INFO(dimension << "D, wave length " << spacings << " d: " << found);
+      CHECK(found < 1.02);
+      if (spacings >= 6) CHECK(found > 0.85);
     }
   }
 }
