@@ -74,10 +74,10 @@
   REAL(alpha, 0.0, 0.0, 1.5, 0.0, 1e3, "1", "alpha", live,                                                            \
        "Share of the vorticity that each step loses which is given back (Liu et al. 2020, Eq. 17; they use 1 to 1.2 " \
        "and call 1.3 unstable); 0 skips the passes.")                                                                 \
-  CHOICE(reconstruction, sum, "", live,                                                                               \
+  CHOICE(reconstruction, poisson, "", live,                                                                               \
          "From vorticity to velocity: the paper's sum over neighbours (Eq. 15), which gives back small eddies in "    \
          "part and large ones hardly, or Poisson's equation on a grid, which gives back all that the grid resolves.", \
-         sum, poisson)
+         poisson, sum)
 
 #define CURLEW_VORTICITY_CONFINEMENT_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                          \
   REAL(epsilon, 0.0, 0.0, 0.5, 0.0, 1e3, "m/s", "epsilon", live,                                                    \
