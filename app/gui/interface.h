@@ -121,7 +121,6 @@ class Interface {
   // parameters_panel.cpp
   void draw_parameters();
   void draw_parameter(const ParameterRow& row);
-  void draw_turbulence();
   void draw_resolution();
   void draw_files();
   void change(const Parameters& next);  // with undo
@@ -129,7 +128,12 @@ class Interface {
   void save_scene();
   void apply();
 
+  // turbulence_panel.cpp
+  void draw_turbulence();
+  void draw_preset_choice();
+
   // view_panel.cpp
+  bool draw_colour_choice();  // true where another was chosen
   void draw_view();
 
   // plots_panel.cpp
