@@ -39,9 +39,14 @@ bool Interface::draw_colour_choice() {
     ImGui::SetTooltip("%s\n0 while its model is off: raise %s under Turbulence.", doc.c_str(),
                       written_symbol(parameter_row(key).symbol).c_str());
   };
+  // The longest name has to fit into a narrow panel.
+  const float em = ImGui::GetFontSize(), room = ImGui::GetContentRegionAvail().x;
+  const float beside = ImGui::CalcTextSize("colour by").x + 2 * ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(std::min(8 * em, room - beside));
+  const ImGuiComboFlags arrow = room < 14 * em ? ImGuiComboFlags_NoArrowButton : 0;
   std::string& chosen = view_.look.colour_by;
   bool changed = false;
-  if (ImGui::BeginCombo("colour by", chosen.c_str(), ImGuiComboFlags_HeightLarge)) {
+  if (ImGui::BeginCombo("colour by", chosen.c_str(), ImGuiComboFlags_HeightLarge | arrow)) {
     for (const ColourField& field : colour_fields()) {
       const std::string_view key = colour_switch(field.name, solver_);
       ImGui::PushStyleColor(ImGuiCol_Text,
@@ -74,7 +79,6 @@ void Interface::draw_view() {
   bool changed = false;
   const auto marking = [this](const std::string& widget) { mark(widget); };
   if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
-    ImGui::SetNextItemWidth(wide);
     changed |= draw_colour_choice();
     ImGui::SetNextItemWidth(wide);
     changed |= choose("map", view_.look.colour_map, colour_map_names(), marking);
