@@ -106,10 +106,13 @@ void Session::set_parameters(const Parameters& parameters) {
       const std::lock_guard lock(mutex_);
       if (!loaded_) return;
     }
+    const std::string_view missing = colour_switch(colour_, world_.scene.parameters);
     for (const ParameterRow& row : parameter_table()) {
       if (row.live) row.set(world_.scene.parameters, row.get(parameters));
     }
     plan();
+    // The colours of a model that was switched on or off are other ones at once, also where nothing runs.
+    if (colour_switch(colour_, world_.scene.parameters) != missing) publish();
     const std::lock_guard lock(mutex_);
     parameters_ = world_.scene.parameters;
   });

@@ -64,7 +64,9 @@ bool Interface::draw_colour_choice() {
     mark("colour by");
   }
   if (const std::string_view key = colour_switch(chosen, solver_); !key.empty()) {
-    ImGui::TextDisabled("All 0: raise %s under Turbulence", written_symbol(parameter_row(key).symbol).c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("All 0: raise %s under Turbulence", written_symbol(parameter_row(key).symbol).c_str());
+    ImGui::PopStyleColor();
     mark("colour is off");
   }
   if (!changed) return false;

@@ -489,6 +489,14 @@ TEST_CASE("pictures of every group", "[.panels]") {
       desk.settle();
       desk.keep(entry + suffix);
     }
+    desk.click("show plots");
+    for (int k = 0; k < 15; ++k) desk.click("step");
+    desk.settle();
+    desk.keep("plots" + suffix);
+    desk.click("show plots");
+    desk.click("Undo");
+    desk.settle();
+    desk.keep("colour of a model that is off" + suffix);
     desk.click("Turbulence");
     desk.click("scene");
     desk.keep("scenes" + suffix);
