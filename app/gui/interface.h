@@ -149,6 +149,7 @@ class Interface {
   std::string scene_name_;              // as one gives it on the command line
   const ParameterRow* held_ = nullptr;  // whose widget a hand holds, and what it stands at
   double held_value_ = 0;
+  bool dropped_ = false;  // what the hand holds no longer counts, until it lets go
   std::vector<Parameters> past_, future_;
   char file_[256] = "";
   int wanted_particles_ = 0, laid_out_particles_ = 0;

@@ -122,7 +122,7 @@ void Interface::draw_parameter(const ParameterRow& row) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && changed_from_own) {
       row.set(next, own);
       change(next);
-    } else if (touched || released) {
+    } else if ((touched || released) && !dropped_) {
       held_ = &row;
       held_value_ = value;
       if (released || instant) {
@@ -232,6 +232,7 @@ void Interface::draw_files() {
 }
 
 void Interface::draw_parameters() {
+  if (!ImGui::IsAnyItemActive()) dropped_ = false;
   if (button("Undo", "Take the last change back (Ctrl-Z)", !past_.empty())) undo();
   ImGui::SameLine();
   if (button("Redo", "Make it again (Ctrl-Y)", !future_.empty())) redo();

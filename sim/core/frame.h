@@ -16,9 +16,9 @@ namespace curlew {
 
 // A scalar by which particles can be coloured.
 struct ColourField {
-  std::string_view name;   // "speed"
-  std::string_view label;  // "speed"
-  std::string_view unit;   // "m/s"
+  std::string_view name;      // "speed"
+  std::string_view label;     // "speed"
+  std::string_view unit;      // "m/s"
   std::string_view doc = {};  // one sentence
 };
 
