@@ -167,6 +167,7 @@ int check_command(const RunOptions& options) {
               static_cast<double>(allocated_bytes(world)) / static_cast<double>(world.count));
   std::printf("  first time step %.3g s; density beyond rest: mean %.2g %%, largest %.2g %%\n", world.dt,
               100 * world.report.density_error_true_avg, 100 * world.report.density_error_true_max);
+  if (const std::string warning = colour_warning(scene); !warning.empty()) std::printf("  %s\n", warning.c_str());
   std::printf("  passes:");
   for (const Pass* pass : plan.step) std::printf(" %s", std::string(pass->name).c_str());
   std::printf("\n");

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/setup.h"
 #include "sim/core/error.h"
 #include "sim/io/particle_files.h"
 
@@ -28,6 +29,9 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   view_.look = scene.look;
   if (scene.look.range) range_ = scene.look.range;
   if (!options.frames && options.video.empty()) return;
+  if (const std::string warning = colour_warning(scene); !warning.empty() && !options.quiet) {
+    std::fprintf(stderr, "curlew: warning: %s\n", warning.c_str());
+  }
   geometry_ = make_geometry(scene);
   if (!options.video.empty()) {
     if (std::filesystem::is_directory(options.video)) {

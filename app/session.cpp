@@ -106,10 +106,13 @@ void Session::set_parameters(const Parameters& parameters) {
       const std::lock_guard lock(mutex_);
       if (!loaded_) return;
     }
+    const std::string_view missing = colour_switch(colour_, world_.scene.parameters);
     for (const ParameterRow& row : parameter_table()) {
       if (row.live) row.set(world_.scene.parameters, row.get(parameters));
     }
     plan();
+    // The colours of a model that was switched on or off are other ones at once, also where nothing runs.
+    if (colour_switch(colour_, world_.scene.parameters) != missing) publish();
     const std::lock_guard lock(mutex_);
     parameters_ = world_.scene.parameters;
   });
@@ -312,9 +315,20 @@ void Session::advance() {
   {
     const std::lock_guard lock(mutex_);
     if (samples_.size() >= most_samples) samples_.erase(samples_.begin(), samples_.begin() + most_samples / 2);
-    samples_.push_back({world_.step, world_.time, world_.dt, d.kinetic, d.potential, r.density_error_true_avg,
-                        r.density_error_avg, r.divergence_error, r.pressure_iterations, r.divergence_iterations,
-                        1e3 * (end - begin), ms_pass_});
+    samples_.push_back({world_.step,
+                        world_.time,
+                        world_.dt,
+                        d.kinetic,
+                        d.rotational,
+                        d.potential,
+                        r.density_error_true_avg,
+                        r.density_error_avg,
+                        r.divergence_error,
+                        r.pressure_iterations,
+                        r.divergence_iterations,
+                        1e3 * (end - begin),
+                        ms_pass_,
+                        {}});
     if (wall > 0) {
       status_.real_time_factor = (pace_.back().second - pace_.front().second) / wall;
       status_.steps_a_second = static_cast<double>(pace_.size() - 1) / wall;

@@ -19,16 +19,23 @@
 
 namespace curlew {
 
+// A curve's value, by a name that is a string literal.
+struct NamedValue {
+  std::string_view name;
+  double value = 0;
+};
+
 // What one step was like, for plots.
 struct Sample {
   std::int64_t step = 0;
-  double time = 0, dt = 0;                         // s
-  double kinetic = 0, potential = 0;               // J
-  double compression = 0, compression_target = 0;  // fractions: true mean at the new positions; after the solve
-  double divergence_error = 0;                     // fraction
+  double time = 0, dt = 0;                            // s
+  double kinetic = 0, rotational = 0, potential = 0;  // J
+  double compression = 0, compression_target = 0;     // fractions: true mean at the new positions; after the solve
+  double divergence_error = 0;                        // fraction
   int pressure_iterations = 0, divergence_iterations = 0;
-  double ms_step = 0;          // wall time
-  std::vector<float> ms_pass;  // of each pass of pass_table(); 0 where it did not run
+  double ms_step = 0;              // wall time
+  std::vector<float> ms_pass;      // of each pass of pass_table(); 0 where it did not run
+  std::vector<NamedValue> budget;  // J since the start: work by each model, losses by cause
 };
 
 enum class RunState { empty, paused, playing, diverged };

@@ -2,6 +2,7 @@
 
 #include "app/assets.h"
 #include "sim/core/error.h"
+#include "sim/core/frame.h"
 #include "sim/scene/bundled.h"
 #include "sim/scene/json.h"
 #include "sim/scene/reader.h"
@@ -37,6 +38,13 @@ Scene scene_from(const RunOptions& options) {
   if (options.radius) scene.particle_radius = *options.radius;
   if (options.particles) scene = with_particles(scene, *options.particles);
   return scene;
+}
+
+std::string colour_warning(const Scene& scene) {
+  const std::string key(colour_switch(scene.look.colour_by, scene.parameters));
+  if (key.empty()) return "";
+  return "the water is coloured by " + scene.look.colour_by + ", which is 0 while its model is off; " + key +
+         " switches it on";
 }
 
 }  // namespace curlew

@@ -51,7 +51,10 @@ void Interface::lay_out_again(std::optional<double> particles) {
 
 // The scene that was asked for stands: from here on the widgets speak of it.
 void Interface::install(const Pending& next) {
-  held_ = nullptr;
+  if (next.fresh && held_ != nullptr) {  // what a hand holds was meant for the scene before
+    held_ = nullptr;
+    dropped_ = true;
+  }
   between_pictures_ = 0;
   const Parameters set = scene_.parameters;
   scene_ = next.scene;

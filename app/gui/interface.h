@@ -121,7 +121,6 @@ class Interface {
   // parameters_panel.cpp
   void draw_parameters();
   void draw_parameter(const ParameterRow& row);
-  void draw_turbulence();
   void draw_resolution();
   void draw_files();
   void change(const Parameters& next);  // with undo
@@ -129,7 +128,12 @@ class Interface {
   void save_scene();
   void apply();
 
+  // turbulence_panel.cpp
+  void draw_turbulence();
+  void draw_preset_choice();
+
   // view_panel.cpp
+  bool draw_colour_choice();  // true where another was chosen
   void draw_view();
 
   // plots_panel.cpp
@@ -145,6 +149,7 @@ class Interface {
   std::string scene_name_;              // as one gives it on the command line
   const ParameterRow* held_ = nullptr;  // whose widget a hand holds, and what it stands at
   double held_value_ = 0;
+  bool dropped_ = false;  // what the hand holds no longer counts, until it lets go
   std::vector<Parameters> past_, future_;
   char file_[256] = "";
   int wanted_particles_ = 0, laid_out_particles_ = 0;

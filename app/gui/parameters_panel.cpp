@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/gui/danger.h"
 #include "app/gui/interface.h"
 #include "app/gui/style.h"
 #include "sim/core/error.h"
@@ -15,11 +16,9 @@ namespace {
 
 std::string member_of(const ParameterRow& row) { return row.key.substr(row.key.find('.') + 1); }
 
-// A slider over more than three decades is of use only in logarithms.
-bool wide(const ParameterRow& row) { return row.slider_min > 0 && row.slider_max / row.slider_min >= 500; }
-
 std::string label_of(const ParameterRow& row) {
   std::string name = member_of(row);
+  if (row.key == "vorticity_refinement.alpha") name = "refinement";
   if (row.key == "micropolar.nu_t") name = "spin transfer";
   if (row.key == "micropolar.eta") name = "smoothing of spins";
   if (row.key == "vorticity_confinement.epsilon") name = "confinement";
@@ -29,18 +28,13 @@ std::string label_of(const ParameterRow& row) {
   return label;
 }
 
-// In a narrow panel the names need the room.
-float slider_width() {
-  const float em = ImGui::GetFontSize();
-  return std::clamp(ImGui::GetContentRegionAvail().x - 13.5f * em, 4 * em, 9.5f * em);
-}
-
 void tool_tip(const ParameterRow& row) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
   ImGui::TextUnformatted(row.key.c_str());
   ImGui::TextUnformatted(row.doc.c_str());
+  tell_dangers(row);
   if (row.type == ParameterRow::Type::real || row.type == ParameterRow::Type::count) {
     ImGui::TextDisabled("default %s, slider %s to %s, limits %s to %s%s%s", number_text(row.default_value).c_str(),
                         number_text(row.slider_min).c_str(), number_text(row.slider_max).c_str(),
@@ -57,7 +51,8 @@ void tool_tip(const ParameterRow& row) {
 }
 
 // The widget that fits the row's type; true while a hand changes `value`.
-bool edit(const ParameterRow& row, double& value) {
+template <class Mark>
+bool edit(const ParameterRow& row, double& value, const Mark& mark) {
   const std::string id = "##" + row.key;
   switch (row.type) {
     case ParameterRow::Type::flag: {
@@ -69,12 +64,15 @@ bool edit(const ParameterRow& row, double& value) {
     case ParameterRow::Type::choice: {
       int index = static_cast<int>(value);
       bool changed = false;
-      if (ImGui::BeginCombo(id.c_str(), row.names[static_cast<std::size_t>(index)].c_str())) {
+      const bool narrow = slider_width() < 7 * ImGui::GetFontSize();
+      if (ImGui::BeginCombo(id.c_str(), row.names[static_cast<std::size_t>(index)].c_str(),
+                            narrow ? ImGuiComboFlags_NoArrowButton : 0)) {
         for (int k = 0; k < static_cast<int>(row.names.size()); ++k) {
           if (ImGui::Selectable(row.names[static_cast<std::size_t>(k)].c_str(), k == index)) {
             changed = k != index;
             value = k;
           }
+          mark(row.key + " " + row.names[static_cast<std::size_t>(k)]);
         }
         ImGui::EndCombo();
       }
@@ -90,9 +88,10 @@ bool edit(const ParameterRow& row, double& value) {
     case ParameterRow::Type::real:
       break;
   }
-  return ImGui::SliderScalar(
-      id.c_str(), ImGuiDataType_Double, &value, &row.slider_min, &row.slider_max, wide(row) ? "%.2e" : "%.4g",
-      wide(row) ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : ImGuiSliderFlags_NoRoundToFormat);
+  return ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &row.slider_min, &row.slider_max,
+                             logarithmic(row) ? "%.2e" : "%.4g",
+                             logarithmic(row) ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat
+                                              : ImGuiSliderFlags_NoRoundToFormat);
 }
 
 }  // namespace
@@ -103,10 +102,11 @@ void Interface::draw_parameter(const ParameterRow& row) {
   const bool changed_from_own = row.get(scene_.parameters) != own;
   ImGui::PushID(row.key.c_str());
   ImGui::SetNextItemWidth(slider_width());
-  const bool touched = edit(row, value);
+  const bool touched = edit(row, value, [this](const std::string& widget) { mark(widget); });
   const bool released = ImGui::IsItemDeactivatedAfterEdit(), active = ImGui::IsItemActive();
   const bool instant = row.type == ParameterRow::Type::flag || row.type == ParameterRow::Type::choice;
   mark(row.key);
+  if (!(active && ImGui::GetIO().WantTextInput)) tint_dangers(row);
   tool_tip(row);
   ImGui::SameLine();
   const std::string label = label_of(row);
@@ -122,7 +122,7 @@ void Interface::draw_parameter(const ParameterRow& row) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && changed_from_own) {
       row.set(next, own);
       change(next);
-    } else if (touched || released) {
+    } else if ((touched || released) && !dropped_) {
       held_ = &row;
       held_value_ = value;
       if (released || instant) {
@@ -171,31 +171,6 @@ void Interface::redo() {
   scene_.parameters = future_.back();
   future_.pop_back();
   session_.set_parameters(scene_.parameters);
-}
-
-std::span<const std::string_view> turbulence_keys() {
-  static constexpr std::string_view keys[] = {"micropolar.nu_t", "micropolar.eta", "vorticity_confinement.epsilon"};
-  return keys;
-}
-
-// The main slider of each model. Those of models to come have their place already, so that hands find them there.
-void Interface::draw_turbulence() {
-  const auto to_come = [](const char* symbol, const char* name, const char* doc) {
-    double zero = 0;
-    const double low = 0, high = 1;
-    ImGui::BeginDisabled();
-    ImGui::SetNextItemWidth(slider_width());
-    ImGui::SliderScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
-    ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-      ImGui::SetTooltip("%s\nThis version does not have the model yet.", doc);
-    }
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s  %s", written_symbol(symbol).c_str(), name);
-  };
-  to_come("alpha", "vorticity refinement", "Share of the lost vorticity that is given back (Liu et al. 2020).");
-  for (const std::string_view key : turbulence_keys()) draw_parameter(parameter_row(key));
-  to_come("A", "wavelet amplitude", "Strength of the synthesised turbulence (Fujisawa et al. 2011).");
 }
 
 void Interface::draw_resolution() {
@@ -257,6 +232,7 @@ void Interface::draw_files() {
 }
 
 void Interface::draw_parameters() {
+  if (!ImGui::IsAnyItemActive()) dropped_ = false;
   if (button("Undo", "Take the last change back (Ctrl-Z)", !past_.empty())) undo();
   ImGui::SameLine();
   if (button("Redo", "Make it again (Ctrl-Y)", !future_.empty())) redo();

@@ -126,7 +126,11 @@ void draw_values_under_mouse(ImDrawList& list, const Plot& plot, const Axes& axe
     const double v = plot.series[k].value(sample);
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colour_of(k)), "%s", plot.series[k].name.c_str());
     ImGui::SameLine();
-    ImGui::Text("%s %s", short_number(v).c_str(), plot.unit.c_str());
+    if (std::isfinite(v)) {
+      ImGui::Text("%s %s", short_number(v).c_str(), plot.unit.c_str());
+    } else {
+      ImGui::TextUnformatted("none");
+    }
     if (std::isfinite(v)) list.AddCircleFilled({x, axes.y(v)}, 3, colour_of(k));
   }
   ImGui::EndTooltip();
@@ -177,6 +181,20 @@ void draw_plot(const Plot& plot, std::span<const Sample> samples, float width, f
   if (hovered && !samples.empty()) draw_values_under_mouse(list, plot, axes, samples);
 }
 
+Plot budget_plot(std::span<const Sample> samples) {
+  Plot plot{"Energy budget", "J", {}, false};
+  if (samples.empty()) return plot;
+  for (const auto& [name, newest] : samples.back().budget) {
+    plot.series.push_back({std::string(name), [name = name](const Sample& sample) {
+                             for (const NamedValue& entry : sample.budget) {
+                               if (entry.name == name) return entry.value;
+                             }
+                             return std::nan("");
+                           }});
+  }
+  return plot;
+}
+
 std::string plot_csv(const Plot& plot, std::span<const Sample> samples) {
   std::string text = "step,time (s)";
   for (const Series& series : plot.series)
@@ -184,7 +202,10 @@ std::string plot_csv(const Plot& plot, std::span<const Sample> samples) {
   text += "\n";
   for (const Sample& sample : samples) {
     text += std::to_string(sample.step) + "," + number_text(sample.time);
-    for (const Series& series : plot.series) text += "," + number_text(series.value(sample));
+    for (const Series& series : plot.series) {
+      const double v = series.value(sample);
+      text += "," + (std::isfinite(v) ? number_text(v) : "");
+    }
     text += "\n";
   }
   return text;

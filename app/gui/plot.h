@@ -21,6 +21,10 @@ struct Plot {
   bool logarithmic = false;
 };
 
+// One curve for each name in the newest sample's budget, in its order; before a name comes first its curve has a gap.
+// No curves where there is no budget.
+Plot budget_plot(std::span<const Sample> samples);
+
 // Draws into the space of that size at the cursor.
 void draw_plot(const Plot& plot, std::span<const Sample> samples, float width, float height);
 

@@ -1,20 +1,31 @@
 // Plots over the run's time.
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/gui/interface.h"
 #include "sim/io/atomic_file.h"
 
 namespace curlew {
 namespace {
 
+Plot energy_plot(std::span<const Sample> samples) {
+  Plot plot{"Energy",
+            "J",
+            {{"total", [](const Sample& s) { return s.kinetic + s.rotational + s.potential; }},
+             {"kinetic", [](const Sample& s) { return s.kinetic; }},
+             {"potential", [](const Sample& s) { return s.potential; }}},
+            false};
+  // Only where a model has spins.
+  if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return s.rotational != 0; })) {
+    plot.series.push_back({"rotational", [](const Sample& s) { return s.rotational; }});
+  }
+  return plot;
+}
+
+// Those that are the same in all runs.
 std::vector<Plot> make_plots() {
   std::vector<Plot> plots = {
-      {"Energy",
-       "J",
-       {{"mechanical", [](const Sample& s) { return s.kinetic + s.potential; }},
-        {"kinetic", [](const Sample& s) { return s.kinetic; }},
-        {"potential", [](const Sample& s) { return s.potential; }}},
-       false},
       {"Compression",
        "%",
        {{"true", [](const Sample& s) { return 100 * s.compression; }},
@@ -44,13 +55,17 @@ std::vector<Plot> make_plots() {
 }  // namespace
 
 void Interface::draw_plots() {
-  static const std::vector<Plot> plots = make_plots();
+  static const std::vector<Plot> always = make_plots();
   if (button(plots_paused_ ? "Go on" : "Hold", "Hold the plots still; the run goes on")) {
     plots_paused_ = !plots_paused_;
     paused_samples_ = samples_;
   }
   mark("hold plots");
   const std::vector<Sample>& samples = plots_paused_ ? paused_samples_ : samples_;
+  std::vector<Plot> plots{energy_plot(samples)};
+  Plot budget = budget_plot(samples);
+  if (!budget.series.empty()) plots.push_back(std::move(budget));
+  plots.insert(plots.end(), always.begin(), always.end());
   for (const Plot& plot : plots) {
     ImGui::SameLine();
     const std::string label = plot.title + ".csv";

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -87,6 +88,11 @@ void same_line_if_fits(const char* label, bool check_box) {
   const float wide = ImGui::CalcTextSize(label).x + around + style.ItemSpacing.x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (ImGui::GetItemRectMax().x + wide < end) ImGui::SameLine();
+}
+
+float slider_width() {
+  const float em = ImGui::GetFontSize();
+  return std::clamp(ImGui::GetContentRegionAvail().x - 13.5f * em, 4 * em, 9.5f * em);
 }
 
 std::string written_symbol(const std::string& symbol) {

@@ -15,6 +15,9 @@ void begin_panel(const char* name, float x, float y, float width, float height, 
 // The next button, or check box, goes beside the last widget where there is room for its label.
 void same_line_if_fits(const char* label, bool check_box = false);
 
+// Of a slider with its name beside it: in a narrow panel the names need the room.
+float slider_width();
+
 // A paper's symbol as it is written by hand: "nu" becomes the Greek letter where the font has it.
 std::string written_symbol(const std::string& symbol);
 // "m^2/s" with a raised 2.

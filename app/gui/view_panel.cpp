@@ -30,23 +30,58 @@ bool choose(const char* label, std::string& chosen, const Names& names, const Ma
 
 }  // namespace
 
+// Fields of models that are off can be chosen, dimmed: they show 0 until their slider is raised.
+bool Interface::draw_colour_choice() {
+  const auto tell = [](const ColourField& field, std::string_view key) {
+    if (!ImGui::IsItemHovered()) return;
+    const std::string doc(field.doc);
+    if (key.empty()) return ImGui::SetTooltip("%s", doc.c_str());
+    ImGui::SetTooltip("%s\n0 while its model is off: raise %s under Turbulence.", doc.c_str(),
+                      written_symbol(parameter_row(key).symbol).c_str());
+  };
+  // The longest name has to fit into a narrow panel.
+  const float em = ImGui::GetFontSize(), room = ImGui::GetContentRegionAvail().x;
+  const float beside = ImGui::CalcTextSize("colour by").x + 2 * ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(std::min(8 * em, room - beside));
+  const ImGuiComboFlags arrow = room < 14 * em ? ImGuiComboFlags_NoArrowButton : 0;
+  std::string& chosen = view_.look.colour_by;
+  bool changed = false;
+  if (ImGui::BeginCombo("colour by", chosen.c_str(), ImGuiComboFlags_HeightLarge | arrow)) {
+    for (const ColourField& field : colour_fields()) {
+      const std::string_view key = colour_switch(field.name, solver_);
+      ImGui::PushStyleColor(ImGuiCol_Text,
+                            ImGui::GetStyleColorVec4(key.empty() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+      if (ImGui::Selectable(std::string(field.name).c_str(), chosen == field.name) && chosen != field.name) {
+        chosen = field.name;
+        changed = true;
+      }
+      ImGui::PopStyleColor();
+      mark("colour by " + std::string(field.name));
+      tell(field, key);
+    }
+    ImGui::EndCombo();
+  } else {
+    mark("colour by");
+  }
+  if (const std::string_view key = colour_switch(chosen, solver_); !key.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("All 0: raise %s under Turbulence", written_symbol(parameter_row(key).symbol).c_str());
+    ImGui::PopStyleColor();
+    mark("colour is off");
+  }
+  if (!changed) return false;
+  session_.colour_by(chosen);
+  range_.reset();
+  own_range_ = false;
+  return true;
+}
+
 void Interface::draw_view() {
   const float wide = std::min(8.0f * ImGui::GetFontSize(), 0.5f * ImGui::GetContentRegionAvail().x);
   bool changed = false;
   const auto marking = [this](const std::string& widget) { mark(widget); };
   if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
-    std::vector<std::string_view> names{"none"};
-    for (const ColourField& field : colour_fields()) {
-      if (field.name != "none") names.push_back(field.name);
-    }
-    ImGui::SetNextItemWidth(wide);
-    if (choose("colour by", view_.look.colour_by, names, marking)) {
-      session_.colour_by(view_.look.colour_by);
-      range_.reset();
-      own_range_ = false;
-      changed = true;
-    }
-    mark("colour by");
+    changed |= draw_colour_choice();
     ImGui::SetNextItemWidth(wide);
     changed |= choose("map", view_.look.colour_map, colour_map_names(), marking);
     mark("map");

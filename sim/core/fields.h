@@ -1,11 +1,13 @@
 // The table of particle fields: each per-particle array is declared once. From a row come allocation, the sort
 // permutation, checkpoints, the state hash, the colour-by menu and the exports.
 //
-//   FIELD(name, type, unit, kept, model or scratch, doc)
+//   FIELD(name, type, unit, kept, model, carried or scratch, doc)
 //
 // Kept fields are sorted, saved and hashed; those of a model too, but only while its passes are planned: they begin at
-// zero and cost nothing before. Scratch fields exist only where a planned pass touches them and hold
-// nothing from one step to the next but what the passes at the end of a step leave for those at the start of the next.
+// zero and cost nothing before. Carried and scratch fields exist only where a planned pass touches them. Carried ones
+// are sorted, so that a picture finds what the last step left at its particle; the state does not depend on them.
+// Scratch fields hold nothing from one step to the next but what the passes at the end of a step leave for those at the
+// start of the next.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +50,7 @@ namespace curlew {
   FIELD(pressure, float, "Pa", scratch,                                                                               \
         "Sum of both solves, rho^2 (k_density + k_divergence) times the gradient share.")                             \
   FIELD(vorticity, Vec3, "1/s", scratch, "Curl of the velocity, difference form (Liu et al. 2020, Eq. 6).")           \
-  FIELD(lost_vorticity, Vec3, "1/s", scratch,                                                                         \
+  FIELD(lost_vorticity, Vec3, "1/s", carried,                                                                         \
         "Vorticity that the last step lost (Liu et al. 2020, Eq. 12); w: volume of the particle, m^D.")               \
   FIELD(stream_function, Vec3, "m^2/s", scratch, "Vector potential of the lost velocity (Liu et al. 2020, Eq. 15).")
 
@@ -58,10 +60,12 @@ enum class FieldId : std::uint8_t {
 #undef CURLEW_ID
 };
 
-enum class FieldKind : std::uint8_t { kept, model, scratch };
+enum class FieldKind : std::uint8_t { kept, model, carried, scratch };
 
-// Sorted, saved and hashed.
+// Goes where its particle goes: sorted.
 constexpr bool is_state(FieldKind kind) { return kind != FieldKind::scratch; }
+// Saved and hashed too.
+constexpr bool is_saved(FieldKind kind) { return kind == FieldKind::kept || kind == FieldKind::model; }
 
 // Sixty-four bytes: a cache line, and any SIMD register.
 template <class T>

@@ -7,6 +7,7 @@
 #include "sim/core/parallel.h"
 #include "sim/core/world.h"
 #include "sim/scene/shapes.h"
+#include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
 namespace {
@@ -17,23 +18,48 @@ struct ColourSource {
   ColourField field;
   FieldSet reads;
   float (*value)(const World&, std::size_t);
+  std::string_view key = {};  // of the model that fills the field, where one does
+  bool (*on)(const Parameters&) = nullptr;
 };
 
+// In 2D a rotation has a sign.
+float rotation(const World& w, const Array<Vec3>& field, std::size_t i) {
+  return w.scene.dimension == 2 ? field[i].z : length(field[i]);
+}
+
+// The same of a field that does not exist while its model is off.
+float rotation_if_any(const World& w, const Array<Vec3>& field, std::size_t i) {
+  return field.empty() ? 0.0f : rotation(w, field, i);
+}
+
 constexpr ColourSource sources[] = {
-    {{"none", "", ""}, {}, nullptr},
-    {{"speed", "speed", "m/s"}, {velocity}, [](const World& w, std::size_t i) { return length(w.fields.velocity[i]); }},
-    {{"height", "height", "m"},
+    {{"none", "", "", "One colour for all water."}, {}, nullptr},
+    {{"speed", "speed", "m/s", "Length of the velocity."},
+     {velocity},
+     [](const World& w, std::size_t i) { return length(w.fields.velocity[i]); }},
+    {{"height", "height", "m", "Above the lowest point of the domain."},
      {position},
      [](const World& w, std::size_t i) { return w.fields.position[i].y - static_cast<float>(w.scene.domain.min.y); }},
-    {{"pressure", "pressure", "Pa"}, {pressure}, [](const World& w, std::size_t i) { return w.fields.pressure[i]; }},
-    {{"density", "density", "kg/m^3"}, {density}, [](const World& w, std::size_t i) { return w.fields.density[i]; }},
-    {{"vorticity", "vorticity", "1/s"},
+    {{"pressure", "pressure", "Pa", "Sum of both pressure solves."},
+     {pressure},
+     [](const World& w, std::size_t i) { return w.fields.pressure[i]; }},
+    {{"density", "density", "kg/m^3", "SPH sum over fluid and boundary."},
+     {density},
+     [](const World& w, std::size_t i) { return w.fields.density[i]; }},
+    {{"vorticity", "vorticity", "1/s", "Curl of the velocity (Liu et al. 2020, Eq. 6)."},
      {vorticity},
-     [](const World& w, std::size_t i) {
-       // In 2D vorticity has a sign.
-       return w.scene.dimension == 2 ? w.fields.vorticity[i].z : length(w.fields.vorticity[i]);
-     }},
-    {{"neighbours", "neighbours", "1"},
+     [](const World& w, std::size_t i) { return rotation(w, w.fields.vorticity, i); }},
+    {{"microrotation", "microrotation", "1/s", "Spin of the particles (Bender et al. 2018)."},
+     {microrotation},
+     [](const World& w, std::size_t i) { return rotation_if_any(w, w.fields.microrotation, i); },
+     "micropolar.nu_t",
+     [](const Parameters& p) { return transfer_coefficient(p) != 0; }},
+    {{"lost_vorticity", "dissipated vorticity", "1/s", "Vorticity that the last step lost (Liu et al. 2020, Eq. 12)."},
+     {lost_vorticity},
+     [](const World& w, std::size_t i) { return rotation_if_any(w, w.fields.lost_vorticity, i); },
+     "vorticity_refinement.alpha",
+     [](const Parameters& p) { return p.vorticity_refinement.alpha > 0; }},
+    {{"neighbours", "neighbours", "1", "Fluid neighbours, boundary samples and what the walls stand for."},
      {neighbour_number},
      [](const World& w, std::size_t i) { return w.fields.neighbour_number[i]; }},
 };
@@ -61,6 +87,11 @@ std::span<const ColourField> colour_fields() {
 }
 
 FieldSet colour_demand(std::string_view name) { return source_of(name).reads; }
+
+std::string_view colour_switch(std::string_view name, const Parameters& parameters) {
+  const ColourSource& source = source_of(name);
+  return source.on == nullptr || source.on(parameters) ? std::string_view{} : source.key;
+}
 
 std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene) {
   auto geometry = std::make_shared<FrameGeometry>();

@@ -16,9 +16,10 @@ namespace curlew {
 
 // A scalar by which particles can be coloured.
 struct ColourField {
-  std::string_view name;   // "speed"
-  std::string_view label;  // "speed"
-  std::string_view unit;   // "m/s"
+  std::string_view name;      // "speed"
+  std::string_view label;     // "speed"
+  std::string_view unit;      // "m/s"
+  std::string_view doc = {};  // one sentence
 };
 
 // All of them; a vector field is coloured by its length.
@@ -51,6 +52,10 @@ struct World;
 
 // The fields that must be filled to colour by `name`; throws InputError for a name that is not in colour_fields().
 FieldSet colour_demand(std::string_view name);
+
+// The key of the parameter that switches on the model which fills the colour's field, where that is off; else empty.
+// Frames then show 0.
+std::string_view colour_switch(std::string_view name, const Parameters& parameters);
 
 std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene);
 

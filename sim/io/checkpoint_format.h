@@ -24,7 +24,7 @@ inline constexpr std::size_t checksum_bytes = 8;
 template <class FieldsLike, class F>
 void for_each_kept_field(FieldsLike& fields, F&& f) {
   for_each_field(fields, [&](const FieldRow& row, auto& array) {
-    if (is_state(row.kind)) f(row, array);
+    if (is_saved(row.kind)) f(row, array);
   });
 }
 

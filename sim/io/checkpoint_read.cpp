@@ -150,7 +150,7 @@ std::vector<FieldInFile> read_field_list(Cursor& header, const CheckpointInfo& i
     field.type = header.text();
     field.values = header.number<std::uint64_t>();
     const auto row = std::find_if(std::begin(field_table), std::end(field_table),
-                                  [&](const FieldRow& r) { return is_state(r.kind) && r.name == field.name; });
+                                  [&](const FieldRow& r) { return is_saved(r.kind) && r.name == field.name; });
     if (row == std::end(field_table)) {
       throw InputError(name + " holds the particle field " + shown(field.name) +
                        ", which this Curlew does not know; use the version that wrote it, " +

@@ -68,7 +68,7 @@ std::uint64_t state_hash(const Fields& fields) {
   if (!state) throw std::bad_alloc();
   XXH3_64bits_reset(state.get());
   for_each_field(fields, [&](const FieldRow& row, const auto& array) {
-    if (!is_state(row.kind) || array.empty()) return;
+    if (!is_saved(row.kind) || array.empty()) return;
     if (array.size() != order.size()) {
       throw std::logic_error("state hash: " + std::string(row.name) + " has another length than id");
     }

@@ -181,7 +181,10 @@ JsonNode look_node() {
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
   return object_of(
       "What the picture shows.",
-      {{"colour_by", one_of_names(fields, "Field that colours the particles.")},
+      {{"colour_by",
+        one_of_names(
+            fields,
+            "Field that colours the particles; microrotation and lost_vorticity are 0 while their models are off.")},
        {"colour_map", one_of_names(colour_map_names())},
        {"range", array_of(typed("number"), 2, 2, "Ends of the colour scale; from the run's data where absent.")},
        {"background", one_of_names(std::vector<std::string_view>{"light", "dark"})},

@@ -99,6 +99,30 @@ TEST_CASE("pictures, other columns and files change no bit") {
   }
 }
 
+TEST_CASE("pictures of the turbulence models change no bit, and say where their model is off") {
+  const TemporaryFolder folder;
+  for (const auto& [colour, key] : {std::pair<std::string, std::string>("microrotation", "micropolar.nu_t"),
+                                    {"lost_vorticity", "vorticity_refinement.alpha"}}) {
+    put_file(folder / "scene.json", R"({"curlew": 1, "particle_radius": 0.05,
+      "domain": {"min": [0, 0, 0], "max": [2, 2, 1]}, "fluid": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1]}}],
+      "look": {"colour_by": ")" + colour +
+                                        "\"}}");
+    std::string off_hash;
+    for (const std::string value : {"0", "0.5"}) {
+      INFO(colour << ", " << key << "=" << value);
+      const std::string line = "run scene.json --steps 30 --overwrite --set " + key + "=" + value;
+      const Table plain = run_in(folder.path(), line, "plain");
+      const Outcome drawn = curlew_program(words_of(line + " --frames --size 160x90 --out drawn"), {folder.path()});
+      REQUIRE(drawn.code == 0);
+      CHECK((drawn.err.find(key + " switches it on") != std::string::npos) == (value == "0"));
+      CHECK(read_table(folder / "drawn/stats.csv").last_hash() == plain.last_hash());
+      CHECK(files_in(folder / "drawn/frames", ".png") > 1);
+      if (value == "0") off_hash = plain.last_hash();
+      if (value != "0") CHECK(plain.last_hash() != off_hash);
+    }
+  }
+}
+
 TEST_CASE("a checkpoint goes on to the same bits, in place and elsewhere, with other threads") {
   const TemporaryFolder folder;
   std::string with_models = dam_break;

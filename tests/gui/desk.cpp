@@ -4,8 +4,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "app/gui/style.h"
+#include "render/png.h"
 
 namespace curlew::test {
 
@@ -64,6 +66,7 @@ void Desk::draw() {
 void Desk::settle() {
   session.finish_tasks();
   draw();
+  session.finish_tasks();  // a scene that stands makes the interface ask for more
   draw();
 }
 
@@ -165,6 +168,12 @@ void Desk::restyle(bool dark, double scale) {
   set_style(dark, scale);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+void Desk::keep(const std::string& name) {
+  if (const char* folder = std::getenv("CURLEW_KEEP_WINDOWS")) {
+    write_png(std::filesystem::path(folder) / (name + ".png"), picture());
+  }
 }
 
 Image Desk::picture() {

@@ -41,6 +41,8 @@ class Desk {
   void restyle(bool dark, double scale);
 
   Image picture();  // of the whole window
+  // For eyes: CURLEW_KEEP_WINDOWS=folder keeps the picture.
+  void keep(const std::string& name);
 
   Session session;
   Interface& interface() { return *interface_; }

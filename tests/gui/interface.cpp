@@ -8,7 +8,6 @@
 #include <set>
 
 #include "app/gui/plot.h"
-#include "render/png.h"
 #include "sim/scene/reader.h"
 #include "sim/scene/resolution.h"
 #include "tests/gui/desk.h"
@@ -21,13 +20,6 @@ namespace {
 
 // A scene that is laid out and stepped in no time.
 constexpr const char* small = CURLEW_ASSETS_DIR "/scenes/dam_break_2d.json";
-
-// For eyes: CURLEW_KEEP_WINDOWS=folder keeps the pictures.
-void keep(Desk& desk, const std::string& name) {
-  if (const char* folder = std::getenv("CURLEW_KEEP_WINDOWS")) {
-    write_png(std::filesystem::path(folder) / (name + ".png"), desk.picture());
-  }
-}
 
 bool in_turbulence(const ParameterRow& row) {
   const auto keys = turbulence_keys();
@@ -83,7 +75,7 @@ TEST_CASE("play, pause, step and reset, by mouse and by key") {
   desk.settle();
   CHECK(desk.interface().status().step == 2);
   desk.click("play");
-  for (int k = 0; k < 500 && desk.interface().status().step < 10; ++k) desk.draw();
+  for (int k = 0; k < 5000 && desk.interface().status().step < 10; ++k) desk.draw();
   CHECK(desk.interface().status().state == RunState::playing);
   CHECK(desk.interface().status().step >= 10);
   desk.key(' ');
@@ -176,7 +168,7 @@ TEST_CASE("pictures and films are asked for, checkpoints, scenes and plots are w
   CHECK(saved.parameters.viscosity.nu == desk.parameters.viscosity.nu);
   desk.click("Energy.csv");
   const std::string csv = file_text(folder / "dam_break_2d/energy_000.csv");
-  CHECK(csv.starts_with("step,time (s),mechanical (J),kinetic (J),potential (J)\n1,"));
+  CHECK(csv.starts_with("step,time (s),total (J),kinetic (J),potential (J)\n1,"));
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 2);
 }
 
@@ -190,7 +182,7 @@ TEST_CASE("what is wrong is said, and the run stays") {
   CHECK(desk.interface().scene().name == "Dam break in 2D");
   desk.open(folder / "nowhere.json");
   CHECK(desk.interface().message().find("nowhere.json") != std::string::npos);
-  keep(desk, "error");
+  desk.keep("error");
   desk.click("OK");
   CHECK(desk.interface().message().empty());
 }
@@ -208,7 +200,7 @@ TEST_CASE("a run that diverged offers to go on with half the time step") {
   desk.draw();
   desk.draw();
   CHECK(desk.interface().message().starts_with("the simulation diverged at step "));
-  keep(desk, "diverged");
+  desk.keep("diverged");
   desk.click("Go on with half the time step");
   desk.settle();
   CHECK(desk.parameters.time.fixed_step == 0.15);
@@ -224,7 +216,7 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
   desk.click("play");
   desk.settle();
   desk.move_to(1, 1);
-  keep(desk, "window_" + std::to_string(static_cast<int>(scale)));
+  desk.keep("window_" + std::to_string(static_cast<int>(scale)));
   const Image light = desk.picture();
   for (const char* widget : {"picture", "plot Energy", "plot Compression", "plot Iterations", "plot Time step",
                              "plot Cost of a step", "viscosity.nu", "colour by", "status"}) {
@@ -276,7 +268,7 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
   desk.restyle(true, scale);
   desk.click("Help");
   desk.draw();
-  keep(desk, "dark_help_" + std::to_string(static_cast<int>(scale)));
+  desk.keep("dark_help_" + std::to_string(static_cast<int>(scale)));
   const Image dark = desk.picture();
   CHECK(dark.at(5, 5)[0] < 80);
   CHECK(light.at(5, 5)[0] > 200);
@@ -462,7 +454,7 @@ TEST_CASE("pictures of every group", "[.panels]") {
     desk.settle();
     const std::string suffix = "_" + std::to_string(width) + "_" + std::to_string(static_cast<int>(scale)) + "x";
     desk.click("show plots");
-    keep(desk, "all" + suffix);
+    desk.keep("all" + suffix);
     for (const char* group : {"Scene file", "Turbulence", "group viscosity", "group micropolar", "group time"}) {
       desk.click(group);
     }
@@ -473,14 +465,44 @@ TEST_CASE("pictures of every group", "[.panels]") {
     groups.insert({"Scene file", "Turbulence"});
     for (const std::string& group : groups) {
       desk.click(group);
-      keep(desk, group + suffix);
+      desk.keep(group + suffix);
       desk.click(group);
     }
+    desk.click("Turbulence");
+    desk.click("dark");
+    desk.restyle(true, scale);
+    for (const std::string widget : {"preset", "vorticity_refinement.alpha", "micropolar.nu_t", "colour by"}) {
+      const auto box = desk.interface().place(widget);
+      desk.move_to(box[2] - 2, 0.5f * (box[1] + box[3]));
+      desk.keep("dark tip " + widget + suffix);
+    }
+    desk.click("dark");
+    desk.restyle(false, scale);
+    for (const std::string widget : {"preset", "colour by"}) {
+      desk.click(widget);
+      const std::string entry = widget == "preset" ? "preset VR with MP" : "colour by lost_vorticity";
+      const auto box = desk.interface().place(entry);
+      desk.move_to(0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3]));
+      desk.keep(widget + " open" + suffix);
+      desk.click(entry);
+      desk.click("step");
+      desk.settle();
+      desk.keep(entry + suffix);
+    }
+    desk.click("show plots");
+    for (int k = 0; k < 15; ++k) desk.click("step");
+    desk.settle();
+    desk.keep("plots" + suffix);
+    desk.click("show plots");
+    desk.click("Undo");
+    desk.settle();
+    desk.keep("colour of a model that is off" + suffix);
+    desk.click("Turbulence");
     desk.click("scene");
-    keep(desk, "scenes" + suffix);
+    desk.keep("scenes" + suffix);
     desk.key(256);
     desk.click("Help");
-    keep(desk, "help" + suffix);
+    desk.keep("help" + suffix);
   }
 }
 

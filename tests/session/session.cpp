@@ -1,6 +1,7 @@
 // The run on its own thread: it does what it is told, in order, and ends where a run without a window ends.
 #include "app/session.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <thread>
@@ -71,6 +72,27 @@ TEST_CASE("looking does not change what is seen") {
   session.colour_by("pressure");
   session.step_once();
   CHECK(session.state_hash() == hash_without_window(scene, 11));
+}
+
+TEST_CASE("looking at what turbulence models do changes no bit, while they are on and while they are off") {
+  Scene scene = small_scene(500);
+  for (const bool on : {false, true}) {
+    scene.parameters.micropolar.nu_t = on ? 0.05 : 0;
+    scene.parameters.vorticity_refinement.alpha = on ? 1 : 0;
+    Session session;
+    open(session, scene);
+    for (const char* colour : {"microrotation", "lost_vorticity"}) {
+      session.colour_by(colour);
+      for (int k = 0; k < 5; ++k) session.step_once();
+      session.finish_tasks();
+      const auto update = session.poll();
+      REQUIRE(update.frame);
+      const auto& values = update.frame->value;
+      REQUIRE(values.size() == update.frame->position.size());
+      CHECK(std::any_of(values.begin(), values.end(), [](float v) { return v != 0; }) == on);
+    }
+    CHECK(session.state_hash() == hash_without_window(scene, 10));
+  }
 }
 
 TEST_CASE("play, pause, and samples of every step") {

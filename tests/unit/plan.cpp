@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "sim/core/frame.h"
 #include "sim/core/passes.h"
 
 using namespace curlew;
@@ -104,6 +105,14 @@ TEST_CASE("what is off costs no byte and no sweep", "[plan]") {
   viscous.parameters.viscosity.nu = 1e-6;
   CHECK(cost_of(viscous).sweeps >= cost_of(plain).sweeps + 10);
   CHECK(cost_of(plain, {FieldId::vorticity}).bytes > cost_of(plain).bytes);
+}
+
+TEST_CASE("to colour by a model that is off costs no byte and no sweep", "[plan]") {
+  Scene scene = small_scene();
+  for (const char* colour : {"microrotation", "lost_vorticity"}) {
+    INFO(colour);
+    CHECK(cost_of(scene, colour_demand(colour)) == cost_of(scene));
+  }
 }
 
 TEST_CASE("a pass touches only fields that exist", "[plan]") {
