@@ -56,6 +56,13 @@
   CHOICE(model, inviscid, "", live,                                                                                    \
          "Inviscid as in the paper's scenes (Eq. 8, 9), or full, with viscosity.nu and zeta (Eq. 6, 7).", inviscid,    \
          full)                                                                                                         \
+  CHOICE(curls, difference, "", live,                                                                                  \
+         "The two curls: difference form for both as in the paper; symmetric for both; or conjugate, the symmetric "   \
+         "one in the force and the difference one in the spin, adjoint to each other, which conserves momentum.",      \
+         difference, symmetric, conjugate)                                                                             \
+  REAL(torque_x, 0.0, -1.0, 1.0, -1e6, 1e6, "m^2/s^2", "tau_x", live, "External torque per mass (Eq. 7), x.")          \
+  REAL(torque_y, 0.0, -1.0, 1.0, -1e6, 1e6, "m^2/s^2", "tau_y", live, "External torque per mass (Eq. 7), y.")          \
+  REAL(torque_z, 0.0, -1.0, 1.0, -1e6, 1e6, "m^2/s^2", "tau_z", live, "External torque per mass (Eq. 7), z.")          \
   REAL(theta, 2.0, 0.1, 10.0, 1e-12, 1e6, "m^2", "Theta", live, "Microinertia (Bender et al. 2018 use 2).")            \
   REAL(zeta, 0.0, 0.0, 1.0, 0.0, 1e3, "m^4/s", "zeta", live, "Diffusion of the spin in the full model (Eq. 7).")       \
   REAL(eta, 0.125, 0.0, 0.5, 0.0, 1.0, "1", "eta", live,                                                               \
@@ -74,7 +81,7 @@
   REAL(alpha, 0.0, 0.0, 1.5, 0.0, 1e3, "1", "alpha", live,                                                            \
        "Share of the vorticity that each step loses which is given back (Liu et al. 2020, Eq. 17; they use 1 to 1.2 " \
        "and call 1.3 unstable); 0 skips the passes.")                                                                 \
-  CHOICE(reconstruction, poisson, "", live,                                                                               \
+  CHOICE(reconstruction, poisson, "", live,                                                                           \
          "From vorticity to velocity: the paper's sum over neighbours (Eq. 15), which gives back small eddies in "    \
          "part and large ones hardly, or Poisson's equation on a grid, which gives back all that the grid resolves.", \
          poisson, sum)

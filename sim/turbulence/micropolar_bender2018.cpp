@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sim/core/parallel.h"
-#include "sim/sph/pair_sums.h"
+#include "sim/sph/velocity_gradient.h"
 
 namespace curlew {
 namespace {
@@ -17,53 +17,109 @@ bool is_full(const Parameters& p) { return p.micropolar.model == Micropolar::mod
 
 double transfer_coefficient(const Parameters& p) { return p.micropolar.nu_t + (is_full(p) ? p.viscosity.nu : 0.0); }
 
-void micropolar_force(World& world) {
-  count_sweep(world);
+namespace {
+
+using Curls = Micropolar::curls_t;
+
+// What of a step is the same for all particles.
+struct Step {
+  float transfer;              // of curl omega, m^2/s
+  float kept, gained;          // shares of the distance to equilibrium and, for the torque, 1/m^2 of what it adds
+  float diffusion, smoothing;  // of the pulls between spins, times mass
+  Vec3 torque;
+};
+
+Step step_of(const World& world) {
+  const Micropolar& p = world.parameters().micropolar;
+  const double transfer = transfer_coefficient(world.parameters()), dt = world.dt, rate = 2 * transfer / p.theta;
+  const double kept = std::exp(-rate * dt), gained = -std::expm1(-rate * dt) / (rate * p.theta);
+  // Twice: of a pair's two densities the mean counts, so that both lose and gain the same.
+  const double zeta = is_full(world.parameters()) ? p.zeta / p.theta : 0.0;
+  const bool by_rate = p.xsph_form == Micropolar::xsph_form_t::rate;
+  const double smoothing = 2 * p.eta * (by_rate ? dt / p.xsph_reference_step : 1.0);
+  return {static_cast<float>(transfer),
+          static_cast<float>(kept),
+          static_cast<float>(gained),
+          static_cast<float>(2 * 2 * zeta * dt) * world.mass,
+          static_cast<float>(smoothing) * world.mass,
+          to_float({p.torque_x, p.torque_y, p.torque_z})};
+}
+
+Vec8 scaled(f8 by, const Vec8& a) { return {by * a.x, by * a.y, by * a.z, a.w}; }
+
+template <Curls curls>
+void couple(World& world) {
   Fields& f = world.fields;
-  const float strength = static_cast<float>(transfer_coefficient(world.parameters())) * world.mass;
+  const Step step = step_of(world);
+  const float softening = world.kernel.softening();
+  const bool bodies = !f.no_slip_gradient.empty();
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 omega = f.microrotation[i];
-      VectorSum curl;
+      const Vec3 v = f.velocity[i], omega = f.microrotation[i];
+      const float density = omega.w;
+      VectorSum curl_v, curl_omega, pulls;
+      const auto add = [&](f8 slope, f8 value, const Vec8& u, const Vec8& w, const Pairs& p) {
+        if constexpr (curls == Curls::symmetric) {
+          const f8 there = 1.0f / (w.w * w.w);
+          const float here = 1 / (density * density);
+          curl_v.add_curl_symmetric(slope, here * v, scaled(there, u), p);
+          curl_omega.add_curl_symmetric(slope, here * omega, scaled(there, w), p);
+        } else {
+          curl_v.add_curl(slope, v, u, p);
+          if constexpr (curls == Curls::difference) curl_omega.add_curl(slope, omega, w, p);
+          if constexpr (curls == Curls::conjugate) {
+            curl_omega.add_curl_symmetric(slope, 1 / density * omega, scaled(1.0f / w.w, w), p);
+          }
+        }
+        const f8 spread = step.diffusion * slope * p.r2 / (p.r2 + softening);
+        const f8 pull = (step.smoothing * value - spread) / (density + w.w);
+        pulls.add(pull * (w.x - omega.x), pull * (w.y - omega.y), pull * (w.z - omega.z));
+      };
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-        curl.add_curl(world.kernel.slope(p.r2), omega, gather(f.microrotation.data(), p.j), p);
+        add(world.kernel.slope(p.r2), world.kernel.value(p.r2), gather(f.velocity.data(), p.j),
+            gather(f.microrotation.data(), p.j), p);
       });
-      f.acceleration[i] += strength / f.density[i] * curl.total();
+      for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+        add(weight * world.kernel.slope(p.r2), f8{},
+            reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset),
+            reflect(gather(f.microrotation.data(), p.j), r.spin_sign, {}), p);
+      });
+      // The factor before each sum: volume, or mass and density.
+      const float of_v = world.mass * (curls == Curls::symmetric ? density : 1 / density);
+      const float of_omega = world.mass * (curls == Curls::symmetric    ? density
+                                           : curls == Curls::difference ? 1 / density
+                                                                        : 1.0f);
+      Vec3 flow = of_v * curl_v.total(), spin = of_omega * curl_omega.total();
+      if (bodies) {
+        flow += 1 / density * cross(v, f.no_slip_gradient[i]);
+        spin += 1 / density * cross(omega, f.no_slip_gradient[i]);
+      }
+      f.acceleration[i] += step.transfer * spin;
+      const Vec3 half = 0.5f * flow;
+      f.packed[i] = half + step.kept * (omega + pulls.total() - half) + step.gained * step.torque;
     });
   });
 }
 
-void spin(World& world) {
+}  // namespace
+
+void couple_spin_and_flow(World& world) {
   count_sweep(world);
   Fields& f = world.fields;
-  const Micropolar& p = world.parameters().micropolar;
-  const double coupling = transfer_coefficient(world.parameters()) / p.theta, dt = world.dt;
-  const auto kept = static_cast<float>(std::exp(-2 * coupling * dt));
-  // Twice: of a pair's two densities the mean counts, so that both lose and gain the same.
-  const double zeta = is_full(world.parameters()) ? p.zeta / p.theta : 0.0;
-  const float diffusion = static_cast<float>(2 * 2 * zeta * dt) * world.mass, softening = world.kernel.softening();
-  const bool rate = p.xsph_form == Micropolar::xsph_form_t::rate;
-  const float smoothing = static_cast<float>(2 * p.eta * (rate ? dt / p.xsph_reference_step : 1.0)) * world.mass;
-  with_images(world.cells, [&](auto images) {
-    parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 v = f.velocity[i], omega = f.microrotation[i];
-      VectorSum curl, pulls;
-      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& pairs) {
-        const Vec8 w = gather(f.microrotation.data(), pairs.j);
-        const f8 slope = world.kernel.slope(pairs.r2);
-        curl.add_curl(slope, v, gather(f.velocity.data(), pairs.j), pairs);
-        const f8 densities = f.density[i] + gather(f.density.data(), pairs.j);
-        const f8 spread = diffusion * slope * pairs.r2 / (pairs.r2 + softening);
-        const f8 pull = (smoothing * world.kernel.value(pairs.r2) - spread) / densities;
-        pulls.x += pull * (w.x - omega.x);
-        pulls.y += pull * (w.y - omega.y);
-        pulls.z += pull * (w.z - omega.z);
-      });
-      const Vec3 half_curl = 0.5f * world.mass / f.density[i] * curl.total();
-      f.acceleration[i] = half_curl + kept * (omega + pulls.total() - half_curl);
-    });
-  });
-  parallel_for(world.count, [&](std::size_t i) { f.microrotation[i] = f.acceleration[i]; });
+  // A neighbour's density comes with its spin.
+  parallel_for(world.count, [&](std::size_t i) { f.microrotation[i].w = f.density[i]; });
+  switch (world.parameters().micropolar.curls) {
+    case Curls::difference:
+      couple<Curls::difference>(world);
+      break;
+    case Curls::symmetric:
+      couple<Curls::symmetric>(world);
+      break;
+    case Curls::conjugate:
+      couple<Curls::conjugate>(world);
+      break;
+  }
+  parallel_for(world.count, [&](std::size_t i) { f.microrotation[i] = f.packed[i]; });
 }
 
 double micropolar_step_limit(const World& world) {
