@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/accuracy.h"
 #include "app/assets.h"
 #include "app/commands.h"
 #include "app/numbers.h"
@@ -155,6 +156,9 @@ int memory(const BenchOptions& options, const std::vector<Case>& cases) {
 
 int bench_command(const BenchOptions& options) {
   if (options.threads > 0) omp_set_num_threads(options.threads);
+  if (options.name == "accuracy") return accuracy_bench(options);
+  if (!options.names.empty())
+    throw InputError("curlew bench " + options.name + " takes no case, found \"" + options.names[0] + "\"");
   std::vector<Case> cases;
   for (const std::string& text : options.cases) cases.push_back(named_case(text));
   if (cases.empty()) cases = {named_case("24k"), named_case("97k")};

@@ -158,10 +158,12 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   app.add_option_function<std::string>(
          "NAME",
          [&](const std::string& t) {
-           o.name = parse_word("the benchmark", t, {"speed", "memory"});
+           o.name = parse_word("the benchmark", t, {"speed", "memory", "accuracy"});
          },
-         "speed or memory")
+         "speed, memory or accuracy")
       ->required();
+  app.add_option("CASE", o.names, "Of accuracy: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop (all)");
+  app.add_option("--out", o.out, "Of accuracy: folder for its tables as CSV");
   app.add_option("--cases", o.cases, "Particle numbers (24k 97k)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
@@ -238,7 +240,7 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run_app, run);
   CLI::App* check = app.add_subcommand("check", "Read a scene and say what it holds");
   add_common_options(*check, run);
-  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory");
+  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, accuracy");
   add_bench_options(*bench_app, bench);
   CLI::App* scenes = app.add_subcommand("scenes", "List the bundled scenes");
   CLI::App* params = app.add_subcommand("params", "List all parameters");

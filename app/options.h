@@ -33,10 +33,12 @@ struct RunOptions {
 
 struct BenchOptions {
   std::string name;
+  std::vector<std::string> names;  // cases of accuracy
   std::vector<std::string> cases;  // particle numbers
   std::vector<std::string> settings;
   int threads = 0;
   double time_share = 1;           // of each case's time, for a quick look
+  std::string out;                 // folder for CSV files of accuracy, or empty
   std::optional<double> at_least;  // millions of particle-steps a second: a gate
 };
 

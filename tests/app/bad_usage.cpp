@@ -50,7 +50,10 @@ const std::vector<Row> commands = {
     {"params --json --schema", "curlew params takes one of --json, --markdown and --schema"},
     {"params --jsn", R"(curlew params has no option "--jsn"; did you mean "--json"?)"},
     {"bench", "NAME is required; see `curlew bench --help`"},
-    {"bench sped", R"(the benchmark is "sped", expected speed or memory)"},
+    {"bench sped", R"(the benchmark is "sped", expected speed, memory or accuracy)"},
+    {"bench accuracy gresho",
+     R"(there is no accuracy case "gresho", expected one of gresho_chan, lamb_oseen, taylor_vortex, spinning_drop)"},
+    {"bench speed gresho_chan", R"(curlew bench speed takes no case, found "gresho_chan")"},
     {"bench speed --cases lots", R"(--cases is "lots", expected a number such as 24389, 24k, 1.2M or 1e5)"},
     {"bench speed --share 0", R"(--share is "0", expected a positive number)"},
 };
