@@ -1,5 +1,6 @@
 // A drop that turns like a rigid body and that nothing outside acts on: what each method does to its linear and angular
 // momentum, and why (see momentum_ledger.h).
+#include <cmath>
 #include <cstdio>
 
 #include "app/accuracy.h"
@@ -66,6 +67,9 @@ DropRow measure(const Scene& scene, const AccuracyMethod& method, double time) {
 void spinning_drop_accuracy(const BenchOptions& options) {
   for (const Scene& scene : accuracy_scenes("spinning_drop", options)) {
     const double time = duration * options.time_share;
+    // L begins at 2/5 M R^2 w; particles that fly straight on have curl v = 2 w / (1 + (w t)^2).
+    const double rate = scene.fluid.at(0).velocity.rate.z, radius = std::get<Sphere>(scene.fluid.at(0).shape).radius;
+    const double torque = 5 * 0.05 * std::atan(rate * time) / (radius * radius * rate);
     std::printf("\nspinning_drop: %.3f s; linear momentum as a share of sum m |v|, angular (z) of L at the start\n\n",
                 time);
     AccuracyTable table{{"method", "linear drift", "change of L", "change of S", "change of L + S",
@@ -85,6 +89,7 @@ void spinning_drop_accuracy(const BenchOptions& options) {
       notes += method.name + ":" + row.notes + "\n";
     }
     table.print();
+    std::printf("\nTorque on paper for c = 0.05 m^2/s: %.2f.\n", torque);
     std::printf("\nOf the residual, and by passes (linear, angular):\n\n%s", notes.c_str());
     table.write("accuracy_spinning_drop", options);
   }

@@ -96,18 +96,28 @@ TEST_CASE("vorticity refinement keeps more of a vortex than plain DFSPH, and nev
   }
 }
 
+TEST_CASE("the growth of a micropolar wave is that of its eigenvalues", "[vortex]") {
+  MicropolarParameters p;
+  p.nu_t = 0.4;
+  const double k = 2 * std::numbers::pi / (8 * 0.0217);
+  CHECK(micropolar_growth_rate(p, k) == Approx(10.04).epsilon(1e-3));
+  CHECK(micropolar_growth(p, k, 0) == Approx(1));
+  CHECK(micropolar_growth(p, k, 1.1) / micropolar_growth(p, k, 1) == Approx(std::exp(1.004)).epsilon(1e-3));
+  const double early = 1e-3;  // spin begins at nu_t k V / Theta, and the flow at nu_t k times that
+  CHECK(micropolar_growth(p, k, early) - 1 == Approx(0.5 * 0.16 * k * k / p.theta * early * early).epsilon(1e-2));
+}
+
 TEST_CASE("what the micropolar model adds to a vortex agrees with its growth rate", "[vortex]") {
-  SECTION("Gresho-Chan: kinetic energy, with the wave number of its enstrophy") {
-    // k^2 = int |curl v|^2 / int |v|^2 = (4 ln 2) / (2/75), the two integrals over the rings of the profile.
-    const double k = std::sqrt(4 * std::numbers::ln2 * 37.5);
+  SECTION("Gresho-Chan: kinetic energy, with the wave number of its enstrophy as the sums see it") {
+    // On paper int |curl v|^2 / int |v|^2 = 6 ln 2 / R^2; the kinks of the profile have short waves, which sums miss.
     World world = make_world(gresho_chan());
     prepare(world, make_plan(world, {FieldId::vorticity}));
-    CHECK(wave_number(world) == Approx(k).epsilon(0.15));
-    const double seen = wave_number(world);
+    const double k = wave_number(world);
+    CHECK(k == Approx(std::sqrt(6 * std::numbers::ln2) / 0.2).epsilon(0.15));
     const Left plain = after_a_turn(gresho_chan()), spun = after_a_turn(micropolar(gresho_chan()));
-    const double growth = micropolar_growth(micropolar(gresho_chan()).parameters.micropolar, seen, 1.257);
-    INFO("energy " << spun.energy / plain.energy << ", expected " << growth * growth << " with k = " << seen);
-    CHECK(spun.energy / plain.energy == Approx(growth * growth).epsilon(0.03));
+    const double growth = micropolar_growth(micropolar(gresho_chan()).parameters.micropolar, k, 1.257);
+    INFO("energy " << spun.energy / plain.energy << ", expected " << growth * growth << " with k = " << k);
+    CHECK(spun.energy / plain.energy - 1 == Approx(growth * growth - 1).epsilon(0.15));
   }
   SECTION("Taylor vortices: amplitude, with their own wave number") {
     const Scene scene = taylor_vortex();
@@ -119,7 +129,7 @@ TEST_CASE("what the micropolar model adds to a vortex agrees with its growth rat
     const double k = 2 * std::numbers::pi * std::numbers::sqrt2;
     const double growth = micropolar_growth(spun.world.parameters().micropolar, k, spun.world.time);
     INFO("amplitude " << ratio << ", expected " << growth);
-    CHECK(ratio == Approx(growth).epsilon(0.02));
+    CHECK(ratio - 1 == Approx(growth - 1).epsilon(0.1));
   }
 }
 
@@ -149,8 +159,11 @@ TEST_CASE("of a spinning drop the micropolar model changes what its torque says"
   const Vec3d surface = ledger.by("apply_forces").orbital - ledger.spin_torque;
   INFO("L " << (now.orbital - start.orbital).z / angular << ", S " << now.spin.z / angular << ", torque "
             << ledger.curl_torque.z / angular << ", surface " << surface.z / angular);
-  // On paper int rho curl v dV = 2 M rate, and S relaxes to Theta M rate at the rate 2 c / Theta.
-  CHECK(ledger.curl_torque.z > 1.5 * angular);
+  // Each particle flies straight on, so that on paper curl v = 2 w / (1 + (w t)^2) and its torque sums up to 2 c M
+  // arctan(w t). The difference form has less of it at the surface, which is much of so small a drop.
+  const double paper = 2 * 0.05 * double{world.mass} * static_cast<double>(world.count) * std::atan(world.time);
+  CHECK(ledger.curl_torque.z > 0.8 * paper);
+  CHECK(ledger.curl_torque.z < paper);
   CHECK(length(drift - ledger.curl_torque - surface) < 1e-3 * angular);
   // The difference pair does not cancel exactly: linear momentum drifts, but little.
   CHECK(length(now.linear - start.linear) < 1e-4 * linear);
