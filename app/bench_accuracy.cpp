@@ -79,6 +79,7 @@ void AccuracyTable::print() const {
   for (std::size_t k = 0; k < columns.size(); ++k) std::printf("|---");
   std::printf("|\n");
   for (const auto& row : rows) print_row(row);
+  std::fflush(stdout);
 }
 
 void AccuracyTable::write(const std::string& name, const BenchOptions& options) const {
@@ -103,10 +104,7 @@ int accuracy_bench(const BenchOptions& options) {
     for (const AccuracyCase& c : cases) chosen.push_back(&c);
   }
   std::printf("%d threads, %s\n", omp_get_max_threads(), CURLEW_ISA_NAME);
-  for (const AccuracyCase* c : chosen) {
-    c->run(options);
-    std::fflush(stdout);
-  }
+  for (const AccuracyCase* c : chosen) c->run(options);
   return 0;
 }
 
