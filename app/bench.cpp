@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/accuracy.h"
 #include "app/assets.h"
 #include "app/commands.h"
 #include "app/numbers.h"
@@ -28,6 +29,10 @@ std::span<const BenchRow> bench_table() {
        "what each turbulence method costs over plain DFSPH",
        {"--cases", "--methods", "--time"},
        bench_overhead},
+      {"accuracy",
+       "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop",
+       {"CASE", "--cases", "--share", "--out"},
+       accuracy_bench},
   };
   return rows;
 }

@@ -170,7 +170,7 @@ void print_sweeps(const std::vector<Method>& methods, const std::vector<Comparis
 int bench_overhead(const BenchOptions& options) {
   check_free(options.settings, {});
   std::vector<Method> methods = parse_methods(
-      options.methods.empty() ? std::vector<std::string>{"vc0.1", "mp0.05", "vr1.0", "poisson1.0", "vr1.0+mp0.05"}
+      options.methods.empty() ? std::vector<std::string>{"vc0.1", "mp0.05", "vr1.0", "sum1.0", "vr1.0+mp0.05"}
                               : options.methods);
   std::erase(methods, Method{});
   const Scene scene = bench_scene("dam_break", 0, single_case(options, "97k"), options);

@@ -16,20 +16,20 @@ struct Part {
   double Method::*strength;
 };
 
-// "poisson" and "vr" share a strength, so Method::poisson tells which of them a method has.
+// "sum" and "vr" share a strength, so Method::sum tells which of them a method has.
 constexpr Part parts[] = {{"vr", "VR ", "", "vorticity_refinement.alpha", &Method::alpha},
-                          {"poisson", "VR ", " Poisson", "vorticity_refinement.alpha", &Method::alpha},
+                          {"sum", "VR ", " sum", "vorticity_refinement.alpha", &Method::alpha},
                           {"mp", "MP ", "", "micropolar.nu_t", &Method::nu_t},
                           {"vc", "VC ", "", "vorticity_confinement.epsilon", &Method::epsilon}};
 
 bool has(const Method& method, const Part& part) {
-  const bool is_poisson = part.word == std::string("poisson");
-  return method.*part.strength != 0 && (part.strength != &Method::alpha || is_poisson == method.poisson);
+  const bool is_sum = part.word == std::string("sum");
+  return method.*part.strength != 0 && (part.strength != &Method::alpha || is_sum == method.sum);
 }
 
 [[noreturn]] void refuse(const std::string& text) {
   throw InputError("--methods is " + in_quotes(text) +
-                   ", expected dfsph, vr1.0, poisson1.0, mp0.05, vc0.1 with any strength, or a sum such as "
+                   ", expected dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or a sum such as "
                    "vr1.0+mp0.05");
 }
 
@@ -43,7 +43,7 @@ void add_part(Method& method, const std::string& word, const std::string& text) 
     set_parameter(checked, row, number, "--methods " + text);
     if (!(row.get(checked) > 0)) refuse(text);
     method.*part.strength = row.get(checked);
-    method.poisson = method.poisson || part.word == std::string("poisson");
+    method.sum = method.sum || part.word == std::string("sum");
     return;
   }
   refuse(text);
@@ -98,8 +98,8 @@ void apply_method(Parameters& parameters, const Method& method) {
   parameters.vorticity_refinement.alpha = method.alpha;
   parameters.micropolar.nu_t = method.nu_t;
   parameters.vorticity_confinement.epsilon = method.epsilon;
-  if (method.poisson) {
-    parameters.vorticity_refinement.reconstruction = VorticityRefinementParameters::reconstruction_t::poisson;
+  if (method.sum) {
+    parameters.vorticity_refinement.reconstruction = VorticityRefinementParameters::reconstruction_t::sum;
   }
 }
 

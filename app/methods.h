@@ -1,5 +1,5 @@
 // Turbulence methods as the benches name them on the command line: "dfsph" (none), "vr1.0" (vorticity refinement with
-// alpha 1), "poisson1.0" (the same through Poisson's equation), "mp0.05" (micropolar, nu_t 0.05), "vc0.1" (vorticity
+// alpha 1), "sum1.0" (the same by the sum of the paper), "mp0.05" (micropolar, nu_t 0.05), "vc0.1" (vorticity
 // confinement, epsilon 0.1), and sums such as "vr1.0+mp0.05".
 #pragma once
 
@@ -12,7 +12,7 @@ namespace curlew {
 
 struct Method {
   double alpha = 0, nu_t = 0, epsilon = 0;
-  bool poisson = false;  // else the reconstruction stays as it is
+  bool sum = false;  // else the reconstruction stays as it is
 
   bool operator==(const Method&) const = default;
   bool is_plain() const { return *this == Method{}; }
@@ -21,9 +21,9 @@ struct Method {
 // All of --methods, none of them twice. Throws InputError.
 std::vector<Method> parse_methods(const std::vector<std::string>& texts);
 
-// "DFSPH", "VR 1.00", "VR 1.00 Poisson + MP 0.05".
+// "DFSPH", "VR 1.00", "VR 1.00 sum + MP 0.05".
 std::string method_label(const Method& method);
-// "dfsph", "vr1", "poisson1+mp0.05": what parse_methods reads back, fit for a file's name.
+// "dfsph", "vr1", "sum1+mp0.05": what parse_methods reads back, fit for a file's name.
 std::string method_name(const Method& method);
 
 // Switches on what the method has and off what it has not.

@@ -18,7 +18,7 @@ struct RunOptions {
   double fps = 60;
   int threads = 0;  // 0: all cores (the user cannot give 0)
   std::uint64_t seed = 0;
-  std::string out;  // empty: out/NAME
+  std::string out;  // empty: out/NAME, accuracy: none
   bool stats_each_frame = false, full_columns = false;
   bool frames = false;
   int width = 1280, height = 720;
@@ -33,11 +33,12 @@ struct RunOptions {
 
 struct BenchOptions {
   std::string name;
+  std::vector<std::string> names;                // cases of accuracy
   std::vector<std::string> cases;                // particle numbers
   std::vector<std::string> settings;             // key=value
   std::vector<std::string> scenes, methods, nu;  // empty: the benchmark's own
   std::optional<double> time;                    // s
-  std::string out;                               // empty: out/NAME
+  std::string out;                               // empty: out/NAME, accuracy: none
   int threads = 0;
   double time_share = 1;           // of each case's time, for a quick look
   std::optional<double> at_least;  // millions of particle-steps a second: a gate

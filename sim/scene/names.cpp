@@ -18,7 +18,8 @@ std::span<const std::string_view> wall_names(int dimension) {
 }
 
 std::span<const std::string_view> velocity_field_names() {
-  static constexpr std::string_view names[] = {"constant", "taylor_green", "rotation", "shear_wave"};
+  static constexpr std::string_view names[] = {"constant",   "taylor_green", "rotation",
+                                               "shear_wave", "gresho_chan",  "lamb_oseen"};
   return names;
 }
 

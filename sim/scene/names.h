@@ -15,7 +15,8 @@ std::span<const std::string_view> wall_kind_names();
 // "x-", "x+", "y-", "y+", "z-", "z+": in the order of Domain::walls.
 std::span<const std::string_view> wall_names(int dimension);
 
-// "constant", "taylor_green", "rotation", "shear_wave": in the order of InitialVelocity::Field.
+// "constant", "taylor_green", "rotation", "shear_wave", "gresho_chan", "lamb_oseen": in the order of
+// InitialVelocity::Field.
 std::span<const std::string_view> velocity_field_names();
 
 }  // namespace curlew

@@ -61,6 +61,14 @@ Domain read_domain(const JsonPlace& place, int dimension) {
   return domain;
 }
 
+void read_rate(const JsonPlace& place, int dimension, Vec3d& rate) {
+  if (dimension == 3) {
+    rate = place.vector(3);
+  } else {
+    rate.z = place.number(-largest, largest);
+  }
+}
+
 InitialVelocity read_velocity(const JsonPlace& place, int dimension) {
   InitialVelocity velocity;
   if (place.node().type == JsonNode::Type::array) {
@@ -72,18 +80,30 @@ InitialVelocity read_velocity(const JsonPlace& place, int dimension) {
   }
   using Field = InitialVelocity::Field;
   velocity.field = static_cast<Field>(place.at("field").one_of(velocity_field_names().subspan(1)) + 1);
-  if (velocity.field != Field::rotation) {
-    place.allow({"field", "speed"});
-    if (const auto speed = place.find("speed")) velocity.speed = speed->number(-largest, largest);
-    return velocity;
+  switch (velocity.field) {
+    case Field::constant:
+    case Field::taylor_green:
+    case Field::shear_wave:
+      place.allow({"field", "speed"});
+      break;
+    case Field::rotation:
+      place.allow({"field", "centre", "rate"});
+      read_rate(place.at("rate"), dimension, velocity.rate);
+      break;
+    case Field::gresho_chan:
+      place.allow({"field", "centre", "radius", "speed"});
+      velocity.radius = 0.2;  // of the paper
+      break;
+    case Field::lamb_oseen:
+      place.allow({"field", "centre", "radius", "circulation"});
+      velocity.radius = place.at("radius").positive(largest);
+      velocity.circulation = place.at("circulation").number(-largest, largest);
+      break;
   }
-  place.allow({"field", "centre", "rate"});
-  velocity.centre = place.at("centre").vector(dimension);
-  if (dimension == 3) {
-    velocity.rate = place.at("rate").vector(3);
-  } else {
-    velocity.rate.z = place.at("rate").number(-largest, largest);
-  }
+  if (const auto speed = place.find("speed")) velocity.speed = speed->number(-largest, largest);
+  if (const auto radius = place.find("radius")) velocity.radius = radius->positive(largest);
+  const bool across = velocity.field == Field::taylor_green || velocity.field == Field::shear_wave;
+  if (!across) velocity.centre = place.at("centre").vector(dimension);
   return velocity;
 }
 

@@ -1,7 +1,6 @@
 // Fluid as particles on lattices.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/core/error.h"
 #include "sim/scene/json.h"
@@ -99,33 +98,7 @@ bool any_periodic(const Scene& scene) {
                      [](bool periodic) { return periodic; });
 }
 
-Vec3d taylor_green(double speed, Vec3d p, const Scene& scene) {
-  const auto phase = [&](int axis) {
-    const double width = scene.domain.max[axis] - scene.domain.min[axis];
-    return 2 * std::numbers::pi * (p[axis] - scene.domain.min[axis]) / width;
-  };
-  const double x = phase(0), y = phase(1);
-  if (scene.dimension == 2) return {-speed * std::cos(x) * std::sin(y), speed * std::sin(x) * std::cos(y), 0};
-  const double layer = speed * std::cos(phase(2));
-  return {layer * std::sin(x) * std::cos(y), -layer * std::cos(x) * std::sin(y), 0};
-}
-
 }  // namespace
-
-Vec3d initial_velocity(const InitialVelocity& field, Vec3d p, const Scene& scene) {
-  switch (field.field) {
-    case InitialVelocity::Field::constant:
-      return field.value;
-    case InitialVelocity::Field::taylor_green:
-      return taylor_green(field.speed, p, scene);
-    case InitialVelocity::Field::rotation:
-      return cross(field.rate, p - field.centre);
-    case InitialVelocity::Field::shear_wave:
-      break;
-  }
-  const double height = scene.domain.max.y - scene.domain.min.y;
-  return {field.speed * std::sin(2 * std::numbers::pi * (p.y - scene.domain.min.y) / height), 0, 0};
-}
 
 // p moved by a random amount that depends on the particle's number alone (SplitMix64, Steele et al. 2014), not past a
 // wall and around a periodic axis.

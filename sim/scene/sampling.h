@@ -27,6 +27,9 @@ std::int64_t count_particles(const Scene&);
 // The velocity (m/s) that an initial field has at p.
 Vec3d initial_velocity(const InitialVelocity&, Vec3d p, const Scene&);
 
+// The speed (m/s) around z that rotation, gresho_chan and lamb_oseen have at a distance r (m) from their centre.
+double azimuthal_speed(const InitialVelocity&, double r);
+
 // One even layer of points on the shape's surface, in 2D its outline: about `spacing` apart, never nearer than 0.6 of
 // it, and no place of the surface farther than about 0.85 of it from a sample. Points beyond the domain by more than
 // two spacings are left out, and in periodic axes all beyond it.

@@ -69,12 +69,14 @@ struct Domain {
 
 // An initial velocity: constant, or a named field.
 struct InitialVelocity {
-  enum class Field { constant, taylor_green, rotation, shear_wave };
+  enum class Field { constant, taylor_green, rotation, shear_wave, gresho_chan, lamb_oseen };
   Field field = Field::constant;
-  Vec3d value;       // constant: the velocity
-  double speed = 1;  // taylor_green, shear_wave: amplitude, m/s, with one period across the domain
-  Vec3d centre;      // rotation: about this point
-  Vec3d rate;        // rotation: angular velocity, rad/s (in 2D only z)
+  Vec3d value;        // constant: the velocity
+  double speed = 1;   // m/s; taylor_green, shear_wave: amplitude, with one period across the domain; gresho_chan: peak
+  Vec3d centre;       // rotation, gresho_chan, lamb_oseen: about this point, the vortices around z
+  Vec3d rate;         // rotation: angular velocity, rad/s (in 2D only z)
+  double radius = 0;  // m; gresho_chan: of the peak, fluid farther than twice that is at rest; lamb_oseen: core, a
+  double circulation = 0;  // lamb_oseen: m^2/s
 };
 
 struct Fluid {

@@ -131,7 +131,18 @@ JsonNode definitions_node() {
                          {"speed", number_node("Amplitude, m/s; 1 where absent.")}}),
               object_of("Rigid rotation.", {{"field", one_of_names(std::vector<std::string_view>{"rotation"}), true},
                                             {"centre", reference("vector"), true},
-                                            {"rate", with_doc(std::move(rate), "rad/s"), true}})}));
+                                            {"rate", with_doc(std::move(rate), "rad/s"), true}}),
+              object_of("Vortex of Gresho & Chan (1990) around z: its speed rises evenly to a peak and falls evenly to "
+                        "rest.",
+                        {{"field", one_of_names(std::vector<std::string_view>{"gresho_chan"}), true},
+                         {"centre", reference("vector"), true},
+                         {"radius", positive_node("Of the peak, m; 0.2 where absent. Rest begins at twice that.")},
+                         {"speed", number_node("At the peak, m/s; 1 where absent.")}}),
+              object_of("Vortex of Lamb and Oseen around z: Gamma / (2 pi r) (1 - exp(-r^2 / a^2)).",
+                        {{"field", one_of_names(std::vector<std::string_view>{"lamb_oseen"}), true},
+                         {"centre", reference("vector"), true},
+                         {"radius", positive_node("Of the core, a, m."), true},
+                         {"circulation", number_node("Gamma, m^2/s."), true}})}));
   return shape_definitions(std::move(definitions));
 }
 

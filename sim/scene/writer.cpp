@@ -86,9 +86,16 @@ JsonNode velocity_node(const InitialVelocity& velocity, const Scene& scene) {
   if (velocity.field == Field::constant) return vector_node(velocity.value, scene.dimension);
   JsonNode node = JsonNode::object();
   node.add("field", name_node(velocity_field_names(), static_cast<std::size_t>(velocity.field)));
-  if (velocity.field != Field::rotation) return node.add("speed", JsonNode::of(velocity.speed));
+  if (velocity.field == Field::taylor_green || velocity.field == Field::shear_wave) {
+    return node.add("speed", JsonNode::of(velocity.speed));
+  }
   node.add("centre", vector_node(velocity.centre, scene.dimension));
-  return node.add("rate", scene.dimension == 3 ? vector_node(velocity.rate, 3) : JsonNode::of(velocity.rate.z));
+  if (velocity.field == Field::rotation) {
+    return node.add("rate", scene.dimension == 3 ? vector_node(velocity.rate, 3) : JsonNode::of(velocity.rate.z));
+  }
+  node.add("radius", JsonNode::of(velocity.radius));
+  return velocity.field == Field::gresho_chan ? node.add("speed", JsonNode::of(velocity.speed))
+                                              : node.add("circulation", JsonNode::of(velocity.circulation));
 }
 
 JsonNode fluid_node(const Scene& scene) {

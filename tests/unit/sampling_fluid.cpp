@@ -179,9 +179,20 @@ TEST_CASE("initial fields have their formulas", "[sampling]") {
   CHECK(near(at({Field::shear_wave, {}, 5, {}, {}}, p), {5 * s, 0, 0}));
   CHECK(near(at({Field::rotation, {}, 1, {1, 2, 0}, {0, 0, 3}}, {2, 4, 0}), {-6, 3, 0}));
   CHECK(near(at({Field::constant, {1, 2, 0}, 1, {}, {}}, p), {1, 2, 0}));
+  const InitialVelocity gresho{Field::gresho_chan, {}, 2, {1, 2, 0}, {}, 0.2, 0};
+  CHECK(near(at(gresho, {1, 2, 0}), {}));
+  CHECK(near(at(gresho, {1.1, 2, 0}), {0, 1, 0}));
+  CHECK(near(at(gresho, {1, 1.7, 0}), {1, 0, 0}));
+  CHECK(near(at(gresho, {1.41, 2, 0}), {}));
+  // nu t = 0.001 of Gamma = 1, at r = 0.02 and 0.2: the exact solution to eight digits.
+  const InitialVelocity lamb{Field::lamb_oseen, {}, 1, {1, 2, 0}, {}, std::sqrt(0.004), 1};
+  CHECK(near(at(lamb, {1, 2, 0}), {}));
+  CHECK(at(lamb, {1.02, 2, 0}).y == Approx(0.75727977).epsilon(1e-7));
+  CHECK(at(lamb, {1, 2.2, 0}).x == Approx(-0.79573859).epsilon(1e-7));
   scene.dimension = 3;
   scene.domain.max.z = 1;
   CHECK(
       near(at({Field::taylor_green, {}, 5, {}, {}}, p + Vec3d{0, 0, 0.3 * scale}), {5 * s * c * c, -5 * c * s * c, 0}));
   CHECK(near(at({Field::rotation, {}, 1, {0, 0, 0}, {1, 0, 0}}, {0, 2, 3}), {0, -3, 2}));
+  CHECK(near(at(gresho, {1.1, 2, 5}), {0, 1, 0}));
 }

@@ -20,7 +20,9 @@ const std::string full_scene = R"json({
     {"box": {"min": [0, 0, 0], "max": [1, 1, 1]}, "velocity": [1, 2, 3]},
     {"sphere": {"centre": [2, 1, 1], "radius": 0.3}, "velocity": {"field": "taylor_green", "speed": 2}},
     {"cylinder": {"from": [3, 0, 1], "to": [3, 1, 1], "radius": 0.2}, "velocity": {"field": "rotation", "centre": [3, 0, 1], "rate": [0, 2, 0]}},
-    {"box": {"min": [3.3, 0, 0], "max": [3.8, 1, 1]}, "velocity": {"field": "shear_wave"}}
+    {"box": {"min": [3.3, 0, 0], "max": [3.8, 1, 1]}, "velocity": {"field": "shear_wave"}},
+    {"box": {"min": [2.7, 0, 0], "max": [2.9, 1, 1]}, "velocity": {"field": "gresho_chan", "centre": [3, 0, 1]}},
+    {"box": {"min": [2.9, 0, 1.5], "max": [3.5, 1, 2]}, "velocity": {"field": "lamb_oseen", "centre": [3, 0, 1], "radius": 0.1, "circulation": -2}}
   ],
   "bodies": [
     {"name": "rock", "mesh": {"file": "../meshes/rock.obj", "scale": 0.2, "translation": [1.5, 0, 1], "rotation": [0, 30, 0]}, "wall": "no-slip"},
@@ -50,13 +52,20 @@ TEST_CASE("every key arrives in the scene", "[scene]") {
   CHECK(scene.domain.walls[1].kind == WallKind::open);
   CHECK(scene.domain.walls[2].kind == WallKind::slip);
   CHECK(scene.domain.walls[3].velocity == Vec3d{1, 0, 0.5});
-  REQUIRE(scene.fluid.size() == 4);
+  REQUIRE(scene.fluid.size() == 6);
   CHECK(scene.fluid[0].velocity.value == Vec3d{1, 2, 3});
   CHECK(std::get<Sphere>(scene.fluid[1].shape).radius == 0.3);
   CHECK(scene.fluid[1].velocity.field == InitialVelocity::Field::taylor_green);
   CHECK(scene.fluid[1].velocity.speed == 2);
   CHECK(scene.fluid[2].velocity.rate == Vec3d{0, 2, 0});
   CHECK(scene.fluid[3].velocity.speed == 1);
+  CHECK(scene.fluid[4].velocity.field == InitialVelocity::Field::gresho_chan);
+  CHECK(scene.fluid[4].velocity.radius == 0.2);
+  CHECK(scene.fluid[4].velocity.speed == 1);
+  CHECK(scene.fluid[5].velocity.field == InitialVelocity::Field::lamb_oseen);
+  CHECK(scene.fluid[5].velocity.centre == Vec3d{3, 0, 1});
+  CHECK(scene.fluid[5].velocity.radius == 0.1);
+  CHECK(scene.fluid[5].velocity.circulation == -2);
   REQUIRE(scene.bodies.size() == 3);
   CHECK(scene.bodies[0].kind == WallKind::no_slip);
   CHECK(std::get<Mesh>(scene.bodies[0].shape).mesh->triangles.size() == 320);

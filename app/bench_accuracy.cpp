@@ -1,0 +1,111 @@
+// `curlew bench accuracy`: the table of cases, and what they share.
+#include <omp.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/accuracy.h"
+#include "app/assets.h"
+#include "app/numbers.h"
+#include "app/setup.h"
+#include "sim/core/error.h"
+#include "sim/core/nearest_name.h"
+#include "sim/io/csv.h"
+#include "sim/scene/bundled.h"
+#include "sim/scene/reader.h"
+#include "sim/scene/resolution.h"
+
+namespace curlew {
+namespace {
+
+struct AccuracyCase {
+  std::string name;
+  void (*run)(const BenchOptions&);
+};
+
+const AccuracyCase cases[] = {
+    {"gresho_chan", gresho_chan_accuracy},
+    {"lamb_oseen", lamb_oseen_accuracy},
+    {"taylor_vortex", taylor_vortex_accuracy},
+    {"spinning_drop", spinning_drop_accuracy},
+};
+
+const AccuracyCase& case_of_name(const std::string& name) {
+  std::string known;
+  for (const AccuracyCase& c : cases) {
+    if (c.name == name) return c;
+    known += (known.empty() ? "" : ", ") + c.name;
+  }
+  throw InputError("there is no accuracy case \"" + name + "\", expected one of " + known);
+}
+
+void print_row(const std::vector<std::string>& cells) {
+  for (const std::string& cell : cells) std::printf("| %s ", cell.c_str());
+  std::printf("|\n");
+}
+
+}  // namespace
+
+const std::vector<AccuracyMethod>& accuracy_methods() {
+  static const std::vector<AccuracyMethod> methods = {
+      {"DFSPH", {}},
+      {"VC 0.01", {"vorticity_confinement.epsilon=0.01"}},
+      {"VC 0.1", {"vorticity_confinement.epsilon=0.1"}},
+      {"MP 0.05", {"micropolar.nu_t=0.05", "micropolar.eta=0"}},
+      {"VR 1 sum", {"vorticity_refinement.alpha=1", "vorticity_refinement.reconstruction=sum"}},
+      {"VR 1", {"vorticity_refinement.alpha=1", "vorticity_refinement.reconstruction=poisson"}},
+  };
+  return methods;
+}
+
+std::vector<Scene> accuracy_scenes(const std::string& name, const BenchOptions& options) {
+  Scene scene = read_scene(find_scene(name, assets_folder()));
+  apply_settings(scene.parameters, options.settings);
+  std::vector<Scene> scenes;
+  for (const std::string& text : options.cases) {
+    scenes.push_back(with_particles(scene, parse_particle_number("--cases", text)));
+  }
+  if (scenes.empty()) scenes.push_back(scene);
+  return scenes;
+}
+
+Scene with_method(Scene scene, const AccuracyMethod& method) {
+  apply_settings(scene.parameters, method.settings);
+  return scene;
+}
+
+void AccuracyTable::print() const {
+  print_row(columns);
+  for (std::size_t k = 0; k < columns.size(); ++k) std::printf("|---");
+  std::printf("|\n");
+  for (const auto& row : rows) print_row(row);
+  std::fflush(stdout);
+}
+
+void AccuracyTable::write(const std::string& name, const BenchOptions& options) const {
+  if (options.out.empty()) return;
+  std::error_code error;  // CsvWriter says what is wrong
+  std::filesystem::create_directories(options.out, error);
+  CsvWriter file(options.out + "/" + name + ".csv", columns);
+  for (const auto& row : rows) file.row(row);
+  file.close();
+}
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+int accuracy_bench(const BenchOptions& options) {
+  std::vector<const AccuracyCase*> chosen;  // all names are looked up before the first case is run
+  for (const std::string& name : options.names) chosen.push_back(&case_of_name(name));
+  if (chosen.empty()) {
+    for (const AccuracyCase& c : cases) chosen.push_back(&c);
+  }
+  std::printf("%d threads, %s\n", omp_get_max_threads(), CURLEW_ISA_NAME);
+  for (const AccuracyCase* c : chosen) c->run(options);
+  return 0;
+}
+
+}  // namespace curlew
