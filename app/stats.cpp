@@ -1,6 +1,7 @@
 #include "app/stats.h"
 
 #include "sim/measure/state_hash.h"
+#include "sim/sph/pressure.h"
 
 namespace curlew {
 namespace {
@@ -20,10 +21,6 @@ std::uint64_t written_hash(const Pass& pass, const Fields& fields) {
   return array_hash(std::as_bytes(std::span(hashes)));
 }
 
-// Whether a pass has a column of what it takes from the kinetic energy. All of them together take what is lost: walls
-// take in advect, an open face takes with the particles.
-bool may_lose(const Pass& pass) { return pass.writes.has(FieldId::velocity); }
-
 std::string text(double value) { return number_text(value); }
 std::string text(std::int64_t value) { return std::to_string(value); }
 
@@ -32,11 +29,7 @@ std::string text(std::int64_t value) { return std::to_string(value); }
 FieldSet StepRecorder::demand(bool full_columns) { return full_columns ? FieldSet{FieldId::vorticity} : FieldSet{}; }
 
 StepRecorder::StepRecorder(const std::string& folder, const Plan& plan, const Settings& settings)
-    : settings_(settings),
-      passes_(plan.step),
-      pass_ms_(passes_.size()),
-      loss_(passes_.size()),
-      total_ms_(passes_.size()) {
+    : settings_(settings), passes_(plan.step), pass_ms_(passes_.size()), total_ms_(passes_.size()), budget_(plan) {
   stats_ = std::make_unique<CsvWriter>(folder + "/stats.csv", columns(plan), settings.resume_after);
   if (settings.hash_passes > 0) {
     const std::vector<std::string> names{"step", "pass", "hash"};
@@ -66,30 +59,28 @@ std::vector<std::string> StepRecorder::columns(const Plan& plan) const {
                                  "ms_step"};
   for (const Pass* pass : plan.step) names.push_back("ms_" + std::string(pass->name));
   if (settings_.full_columns) {
-    for (const char* name :
-         {"px", "py", "pz", "lx", "ly", "lz", "enstrophy", "helicity", "divergence_skipped", "wall_contacts"}) {
+    for (const char* name : {"px", "py", "pz", "lx", "ly", "lz", "enstrophy", "helicity", "divergence_skipped",
+                             "divergence_error_after_models", "wall_contacts"}) {
       names.emplace_back(name);
     }
-    for (const Pass* pass : plan.step) {
-      if (may_lose(*pass)) names.push_back("loss_" + std::string(pass->name));
-    }
+    for (const EnergyBudget::Term& term : budget_.terms()) names.emplace_back(term.name);
   }
   names.emplace_back("state_hash");
   return names;
 }
 
 void StepRecorder::begin_step(const World& world) {
-  if (settings_.full_columns) kinetic_ = kinetic_energy(world);
+  if (settings_.full_columns) budget_.begin_step(world);
 }
 
 void StepRecorder::after(const Pass& pass, const World& world, double milliseconds) {
   const std::size_t k = place_of(passes_, pass);
   pass_ms_[k] = milliseconds;
   total_ms_[k] += milliseconds;
-  if (settings_.full_columns && may_lose(pass)) {
-    const double now = kinetic_energy(world);
-    loss_[k] = kinetic_ - now;
-    kinetic_ = now;
+  if (settings_.full_columns) {
+    budget_.after(pass, world);
+    if (pass.name == "divergence_solve") divergence_after_models_ = world.report.divergence_error;
+    if (pass.name == "vorticity_refinement") divergence_after_models_ = divergence_error(world);
   }
   // The step in hand is the one after world.step.
   if (hashes_ && (world.step + 1) % settings_.hash_passes == 0) {
@@ -127,14 +118,12 @@ void StepRecorder::write_row(const World& world, bool last) {
                                  text(step_ms_)};
   for (double ms : pass_ms_) cells.push_back(text(ms));
   if (settings_.full_columns) {
-    for (double value :
-         {d.momentum.x, d.momentum.y, d.momentum.z, d.angular_momentum.x, d.angular_momentum.y, d.angular_momentum.z,
-          enstrophy(world), helicity(world), r.divergence_skipped, static_cast<double>(r.wall_contacts)}) {
+    for (double value : {d.momentum.x, d.momentum.y, d.momentum.z, d.angular_momentum.x, d.angular_momentum.y,
+                         d.angular_momentum.z, enstrophy(world), helicity(world), r.divergence_skipped,
+                         divergence_after_models_, static_cast<double>(r.wall_contacts)}) {
       cells.push_back(text(value));
     }
-    for (std::size_t k = 0; k < passes_.size(); ++k) {
-      if (may_lose(*passes_[k])) cells.push_back(text(loss_[k]));
-    }
+    for (const EnergyBudget::Term& term : budget_.terms()) cells.push_back(text(term.step));
   }
   cells.push_back(last || settings_.full_columns ? hash_text(state_hash(world.fields)) : "");
   stats_->row(cells);

@@ -9,6 +9,7 @@
 #include "sim/core/passes.h"
 #include "sim/io/csv.h"
 #include "sim/measure/diagnostics.h"
+#include "sim/measure/energy_budget.h"
 
 namespace curlew {
 
@@ -45,8 +46,9 @@ class StepRecorder : public PassObserver {
 
   Settings settings_;
   std::vector<const Pass*> passes_;
-  std::vector<double> pass_ms_, loss_, total_ms_;
-  double step_ms_ = 0, kinetic_ = 0;
+  std::vector<double> pass_ms_, total_ms_;
+  double step_ms_ = 0, divergence_after_models_ = 0;
+  EnergyBudget budget_;
   Diagnostics diagnostics_;
   std::int64_t outside_ = 0;
   std::unique_ptr<CsvWriter> stats_, hashes_;

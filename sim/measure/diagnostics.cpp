@@ -55,6 +55,15 @@ double kinetic_energy(const World& world) {
          });
 }
 
+double rotational_energy(const World& world) {
+  const Array<Vec3>& spin = world.fields.microrotation;
+  if (spin.empty()) return 0;
+  return world.parameters().micropolar.theta * double{world.mass} / 2 * particle_sum(world.count, [&](std::size_t i) {
+           const Vec3d omega = to_double(spin[i]);
+           return dot(omega, omega);
+         });
+}
+
 double enstrophy(const World& world) {
   return double{world.mass} / 2 * particle_sum(world.count, [&](std::size_t i) {
            const Vec3d omega = to_double(world.fields.vorticity[i]);

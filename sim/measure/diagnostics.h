@@ -22,6 +22,8 @@ struct Diagnostics {
 Diagnostics diagnose(const World& world);
 
 double kinetic_energy(const World& world);
+// Of microrotation, Theta omega^2 / 2 a mass; 0 where the model is off.
+double rotational_energy(const World& world);
 
 // From the field vorticity: 1/2 sum V |omega|^2 (m^3/s^2) and sum V v . omega (m^4/s^2).
 double enstrophy(const World& world);

@@ -283,6 +283,21 @@ void divergence_solve(World& world) {
   world.report.divergence_error = outcome.error;
 }
 
+double divergence_error(const World& world) {
+  const Fields& f = world.fields;
+  const bool boundary = world.has_boundary(), corrected = world.parameters().pressure.two_sided;
+  double sum = 0;
+  with_images(world.cells, [&](auto images) {
+    sum = particle_sum(world.count, [&](std::size_t i) {
+      if (f.neighbour_number[i] < world.least_neighbours()) return 0.0;
+      const float rate = corrected ? corrected_density_rate(world, f.velocity, i, images, boundary)
+                                   : density_rate(world, f.velocity, i, images, boundary);
+      return std::max(0.0, double{rate});
+    });
+  });
+  return world.dt * sum / (static_cast<double>(world.count) * double{world.rest_density()});
+}
+
 void density_solve(World& world) {
   Fields& f = world.fields;
   const PressureParameters& p = world.parameters().pressure;

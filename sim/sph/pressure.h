@@ -20,6 +20,9 @@ namespace curlew {
 // Velocity to divergence at most pressure.divergence_tolerance.
 void divergence_solve(World& world);
 
+// The mean compression in a step at the velocity as it is, as the divergence solve counts it.
+double divergence_error(const World& world);
+
 // Predicted density error to at most pressure.density_tolerance.
 void density_solve(World& world);
 
