@@ -24,12 +24,26 @@ double now() {
 }
 
 struct PassTimes : PassObserver {
-  explicit PassTimes(std::vector<float>& ms) : ms_pass(ms) { ms_pass.assign(pass_table().size(), 0); }
-  void after(const Pass& pass, const World&, double milliseconds) override {
+  PassTimes(std::vector<float>& ms, EnergyBudget& spent) : ms_pass(ms), budget(spent) {
+    ms_pass.assign(pass_table().size(), 0);
+  }
+  void after(const Pass& pass, const World& world, double milliseconds) override {
+    budget.after(pass, world);
     ms_pass[static_cast<std::size_t>(&pass - pass_table().data())] = static_cast<float>(milliseconds);
   }
   std::vector<float>& ms_pass;
+  EnergyBudget& budget;
 };
+
+// Gravity's work is seen as potential energy, beside which the others would be flat lines.
+void add_terms(std::vector<NamedValue>& spent, const EnergyBudget& budget) {
+  for (const EnergyBudget::Term& term : budget.terms()) {
+    if (term.name == "work_gravity") continue;
+    auto entry = std::find_if(spent.begin(), spent.end(), [&](const NamedValue& v) { return v.name == term.name; });
+    if (entry == spent.end()) entry = spent.insert(entry, {term.name, 0});
+    entry->value += term.step;
+  }
+}
 
 // Nobody looks at a session for hours and still wants all samples: beyond this the oldest half is dropped.
 constexpr std::size_t most_samples = 200000;
@@ -269,6 +283,8 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
   geometry_ = make_geometry(world_.scene);
   pace_.clear();
   next_recorded_ = 0;
+  budget_ = EnergyBudget(plan_);
+  spent_.clear();
   this->plan();
   publish();
 }
@@ -277,6 +293,7 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
 void Session::plan() {
   const Plan bare = make_plan(world_), full = make_plan(world_, colour_demand(colour_));
   const bool changed = bare.step != plan_.step;
+  if (changed) budget_ = EnergyBudget(bare);
   plan_ = bare;
   plan_.fields = full.fields;
   for_frames_.clear();
@@ -293,8 +310,9 @@ void Session::plan() {
 }
 
 void Session::advance() {
-  PassTimes times(ms_pass_);
+  PassTimes times(ms_pass_, budget_);
   const double begin = now();
+  budget_.begin_step(world_);
   try {
     step(world_, plan_, &times);
   } catch (const DivergedError& error) {
@@ -306,6 +324,7 @@ void Session::advance() {
     return;
   }
   const double end = now();
+  add_terms(spent_, budget_);
   const Diagnostics d = diagnose(world_);
   const StepReport& r = world_.report;
   pace_.emplace_back(end, world_.time);
@@ -315,20 +334,9 @@ void Session::advance() {
   {
     const std::lock_guard lock(mutex_);
     if (samples_.size() >= most_samples) samples_.erase(samples_.begin(), samples_.begin() + most_samples / 2);
-    samples_.push_back({world_.step,
-                        world_.time,
-                        world_.dt,
-                        d.kinetic,
-                        d.rotational,
-                        d.potential,
-                        r.density_error_true_avg,
-                        r.density_error_avg,
-                        r.divergence_error,
-                        r.pressure_iterations,
-                        r.divergence_iterations,
-                        1e3 * (end - begin),
-                        ms_pass_,
-                        {}});
+    samples_.push_back({world_.step, world_.time, world_.dt, d.kinetic, d.rotational, d.potential,
+                        r.density_error_true_avg, r.density_error_avg, r.divergence_error, r.pressure_iterations,
+                        r.divergence_iterations, 1e3 * (end - begin), ms_pass_, spent_});
     if (wall > 0) {
       status_.real_time_factor = (pace_.back().second - pace_.front().second) / wall;
       status_.steps_a_second = static_cast<double>(pace_.size() - 1) / wall;

@@ -16,6 +16,7 @@
 #include "sim/core/frame.h"
 #include "sim/core/passes.h"
 #include "sim/core/world.h"
+#include "sim/measure/energy_budget.h"
 
 namespace curlew {
 
@@ -123,6 +124,8 @@ class Session {
   double recording_fps_ = 0;
   std::int64_t next_recorded_ = 0;
   std::vector<float> ms_pass_;
+  EnergyBudget budget_{Plan{}};
+  std::vector<NamedValue> spent_;               // J since the start; what a model did stays when it is switched off
   std::deque<std::pair<double, double>> pace_;  // wall time, simulated time
   int threads_ = 0;
 

@@ -79,14 +79,12 @@ void EnergyBudget::after(const Pass& pass, const World& world) {
   } else {
     const double now = kinetic_energy(world);
     term.step = term.is_work ? now - kinetic_ : kinetic_ - now;
-    term.total += term.step;
     kinetic_ = now;
   }
   if (pass.writes.has(FieldId::microrotation)) {
     Term& spin = terms_[static_cast<std::size_t>(&term - terms_.data()) + 1];
     const double now = rotational_energy(world);
     spin.step = now - rotational_;
-    spin.total += spin.step;
     rotational_ = now;
   }
 }
@@ -103,7 +101,6 @@ void EnergyBudget::share_out(const World& world) {
                            return dot(to_double(forces_[k][i]), middle);
                          });
     term.step = term.is_work ? given : -given;
-    term.total += term.step;
   }
   kinetic_ = kinetic_energy(world);
 }

@@ -18,7 +18,7 @@ class EnergyBudget {
     std::string_view name;  // "work_micropolar", "loss_density_solve"; a string literal
     const Pass* pass;       // whose it is
     bool is_work;
-    double step = 0, total = 0;  // J, of the last step and of all
+    double step = 0;  // J, of the last step
   };
 
   explicit EnergyBudget(const Plan& plan);
