@@ -16,7 +16,9 @@ constexpr double duration = 1.0;  // s; at 1 rad/s the drop has then grown by sq
 std::vector<AccuracyMethod> methods() {
   std::vector<AccuracyMethod> all = accuracy_methods();
   const auto at = all.begin() + 4;  // after MP
-  all.insert(at, {{"MP 0.05 eta 0.125", {"micropolar.nu_t=0.05"}},
+  all.insert(at, {{"MP 0.05 symmetric", {"micropolar.nu_t=0.05", "micropolar.eta=0", "micropolar.curls=symmetric"}},
+                  {"MP 0.05 conjugate", {"micropolar.nu_t=0.05", "micropolar.eta=0", "micropolar.curls=conjugate"}},
+                  {"MP 0.05 eta 0.125", {"micropolar.nu_t=0.05"}},
                   {"MP full nu 0.01", {"micropolar.nu_t=0.05", "micropolar.model=full", "viscosity.nu=0.01"}}});
   return all;
 }

@@ -23,7 +23,7 @@ constexpr int timed_steps = 10;
 
 // The passes of a model; vorticity counts where only confinement asks for it, as here.
 constexpr const char* model_passes[] = {
-    "vorticity_refinement", "vorticity_prediction", "micropolar", "spin", "vorticity_confinement", "vorticity"};
+    "vorticity_refinement", "vorticity_prediction", "micropolar", "vorticity_confinement", "vorticity"};
 
 // What a model may cost, in sweeps.
 double sweep_limit(const Method& m) { return (m.alpha > 0 ? 5 : 0) + (m.nu_t > 0 ? 2 : 0) + (m.epsilon > 0 ? 2 : 0); }

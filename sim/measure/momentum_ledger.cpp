@@ -31,7 +31,7 @@ void MomentumLedger::after(const Pass& pass, const World& world, double) {
   change.linear += now.linear - last.linear;
   change.orbital += now.orbital - last.orbital;
   change.spin += now.spin - last.spin;
-  if (pass.name == "spin") {
+  if (pass.name == "micropolar") {
     // The pass takes omega towards curl v / 2 by the factor `kept`: the sums before and after give that of curl v.
     const double rate = 2 * transfer_coefficient(world.parameters()) / world.parameters().micropolar.theta;
     const double kept = std::exp(-rate * world.dt);

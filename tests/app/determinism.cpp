@@ -128,7 +128,11 @@ TEST_CASE("a checkpoint goes on to the same bits, in place and elsewhere, with o
   std::string with_models = dam_break;
   with_models.insert(with_models.find("--steps"),
                      "--set micropolar.nu_t=0.2 --set vorticity_confinement.epsilon=0.05 ");
-  for (const std::string& scene : {dam_break, taylor_green, with_models}) {
+  std::string refined = dam_break, summed = dam_break;
+  refined.insert(refined.find("--steps"), "--set vorticity_refinement.alpha=1 --set micropolar.nu_t=0.2 ");
+  summed.insert(summed.find("--steps"),
+                "--set vorticity_refinement.alpha=1 --set vorticity_refinement.reconstruction=sum ");
+  for (const std::string& scene : {dam_break, taylor_green, with_models, refined, summed}) {
     INFO(scene);
     const Table whole = run_in(folder.path(), scene + " --checkpoint-every 0.1 --threads 2 --overwrite", "whole");
     fs::remove_all(folder / "part");

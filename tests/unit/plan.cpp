@@ -99,6 +99,12 @@ TEST_CASE("what is off costs no byte and no sweep", "[plan]") {
   zeroed.parameters.viscosity.nu = 0;
   zeroed.parameters.micropolar.gamma = 0;
   zeroed.parameters.vorticity_confinement.epsilon = 0;
+  zeroed.parameters.vorticity_refinement.alpha = 0;
+  zeroed.parameters.micropolar.nu_t = 0;
+  // What a model that is off would do must not matter either.
+  zeroed.parameters.vorticity_refinement.reconstruction = VorticityRefinementParameters::reconstruction_t::poisson;
+  zeroed.parameters.micropolar.curls = MicropolarParameters::curls_t::conjugate;
+  zeroed.parameters.micropolar.torque_z = 1;
   CHECK(cost_of(zeroed) == cost_of(plain));
   // The counters are alive: what is on costs something.
   Scene viscous = plain;
