@@ -61,7 +61,7 @@ std::string paper_words(const EnergyScene& scene, const Method& m) {
 
 std::string verdict(const EnergyHistory& history, double over_plain, double share) {
   if (!history.complete()) return history.note;
-  return over_plain < calm_over_dfsph && share < calm_share ? "yes" : "no";
+  return over_plain < calm_over_dfsph || share < calm_share ? "yes" : "no";
 }
 
 std::string row(const EnergyScene& scene, const EnergyCurve& curve, const EnergyHistory& plain) {
@@ -128,7 +128,7 @@ std::string energy_table(const EnergyScene& scene, const std::vector<EnergyCurve
                     "from the floor. Increase: mean of (mechanical energy / that of DFSPH at the same time - 1) " +
                     text("from %g to %g s. ", scene.flow_begin, window_end) +
                     "Kinetic: mean over the last second. Calm: this is below " +
-                    text("%g times DFSPH's own and below %g %% of the energy that the water had to give, ",
+                    text("%g times DFSPH's own or below %g %% of the energy that the water had to give, ",
                          calm_over_dfsph, 100 * calm_share) +
                     "which is its mechanical energy at the start less the lowest potential energy of DFSPH's run";
   for (const EnergyCurve& curve : curves) {
