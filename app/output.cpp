@@ -52,7 +52,8 @@ FieldSet FrameOutput::demand() const { return renderer_ ? colour_demand(colour_)
 void FrameOutput::write(const World& world, std::int64_t frame) {
   if (!format_.empty()) write_particles(world, frame);
   if (!renderer_) return;
-  const Frame picture = make_frame(world, colour_, geometry_);
+  Frame picture = make_frame(world, colour_, geometry_);
+  if (view_.look.cut) picture = cut_open(picture, *view_.look.cut);
   if (!view_.look.range && !picture.value.empty()) {
     const auto own = curlew::colour_range(picture);
     range_ = range_ ? united(*range_, own) : own;

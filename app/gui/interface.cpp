@@ -80,6 +80,7 @@ void Interface::install(const Pending& next) {
   orbit_is_new_ = true;
   latest_ = nullptr;  // it shows the scene before
   session_.colour_by(scene_.look.colour_by);
+  adopt_cut(scene_.look.cut);
 }
 
 void Interface::take(Session::Update update) {
@@ -181,21 +182,25 @@ void Interface::drew_water(double seconds_since_last) {
   between_pictures_ = between_pictures_ > 0 ? mixed : seconds_since_last;
 }
 
+std::optional<Cut> Interface::cut() const {
+  if (!cut_) return {};
+  const int axis = std::min(cut_axis_, scene_.dimension - 1);
+  const double low = scene_.domain.min[axis], high = scene_.domain.max[axis];
+  return Cut{axis, low + double{cut_at_} * (high - low), cut_low_};
+}
+
+void Interface::adopt_cut(const std::optional<Cut>& cut) {
+  cut_ = cut.has_value();
+  if (!cut) return;
+  const double low = scene_.domain.min[cut->axis], high = scene_.domain.max[cut->axis];
+  cut_axis_ = cut->axis;
+  cut_at_ = static_cast<float>(std::clamp((cut->at - low) / (high - low), 0.0, 1.0));
+  cut_low_ = cut->keep_high;
+}
+
 std::shared_ptr<const Frame> Interface::cut_open(const std::shared_ptr<const Frame>& frame) const {
-  if (!cut_) return frame;
-  const Domain& domain = frame->geometry->domain;
-  const int axis = std::min(cut_axis_, frame->geometry->dimension - 1);
-  const double low = domain.min[axis], high = domain.max[axis];
-  const auto plane = static_cast<float>(low + double{cut_at_} * (high - low));
-  auto cut = std::make_shared<Frame>(*frame);
-  cut->position.clear();
-  cut->value.clear();
-  for (std::size_t i = 0; i < frame->position.size(); ++i) {
-    if ((frame->position[i][axis] > plane) != cut_low_) continue;
-    cut->position.push_back(frame->position[i]);
-    if (!frame->value.empty()) cut->value.push_back(frame->value[i]);
-  }
-  return cut;
+  const std::optional<Cut> cut = this->cut();
+  return cut ? std::make_shared<Frame>(curlew::cut_open(*frame, *cut)) : frame;
 }
 
 void Interface::draw(unsigned picture) {

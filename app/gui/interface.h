@@ -73,6 +73,7 @@ class Interface {
   // out/NAME/KIND_000.EXTENSION, the first number that is free; a folder where there is no extension.
   std::filesystem::path new_file(const std::string& kind, const std::string& extension);
   // A frame as the picture shows it: without what the cut takes away.
+  std::optional<Cut> cut() const;
   std::shared_ptr<const Frame> cut_open(const std::shared_ptr<const Frame>& frame) const;
 
   const Scene& scene() const { return scene_; }
@@ -175,6 +176,7 @@ class Interface {
   std::optional<std::array<double, 2>> range_;  // of the colours so far
   bool own_range_ = false;                      // the user's
   float particle_scale_ = 1;
+  void adopt_cut(const std::optional<Cut>& cut);
   bool cut_ = false;
   int cut_axis_ = 2;
   float cut_at_ = 0.5f;

@@ -201,6 +201,7 @@ void Interface::save_scene() {
     Scene saved = scene_;
     saved.camera = view_.camera;
     saved.look = view_.look;
+    saved.look.cut = cut();
     if (!own_range_) saved.look.range.reset();
     AtomicFile file(path);
     file.write(scene_json(saved));

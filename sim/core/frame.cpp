@@ -118,4 +118,15 @@ Frame make_frame(const World& world, std::string_view colour_name, std::shared_p
   return frame;
 }
 
+Frame cut_open(const Frame& frame, const Cut& cut) {
+  Frame rest{frame.time, frame.step, {}, {}, frame.colour, frame.geometry};
+  const auto plane = static_cast<float>(cut.at);
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    if ((frame.position[i][cut.axis] > plane) != cut.keep_high) continue;
+    rest.position.push_back(frame.position[i]);
+    if (!frame.value.empty()) rest.value.push_back(frame.value[i]);
+  }
+  return rest;
+}
+
 }  // namespace curlew

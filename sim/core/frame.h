@@ -62,4 +62,7 @@ std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene);
 // Copies what a frame shows out of the world.
 Frame make_frame(const World& world, std::string_view colour_name, std::shared_ptr<const FrameGeometry> geometry);
 
+// The frame without what the cut takes away.
+Frame cut_open(const Frame& frame, const Cut& cut);
+
 }  // namespace curlew

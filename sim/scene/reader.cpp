@@ -192,8 +192,18 @@ std::string read_name(const JsonPlace& place, std::span<const std::string_view> 
   return std::string(names[place.one_of(names)]);
 }
 
-Look read_look(const JsonPlace& place) {
-  place.allow({"colour_by", "colour_map", "range", "background", "show_walls", "show_legend", "show_floor"});
+Cut read_cut(const JsonPlace& place, int dimension) {
+  place.allow({"axis", "at", "keep"});
+  static constexpr std::string_view axes[] = {"x", "y", "z"}, sides[] = {"low", "high"};
+  Cut cut;
+  cut.axis = static_cast<int>(place.at("axis").one_of(std::span(axes).first(static_cast<std::size_t>(dimension))));
+  cut.at = place.at("at").number(-1e6, 1e6);
+  if (const auto keep = place.find("keep")) cut.keep_high = keep->one_of(sides) == 1;
+  return cut;
+}
+
+Look read_look(const JsonPlace& place, int dimension) {
+  place.allow({"colour_by", "colour_map", "range", "cut", "background", "show_walls", "show_legend", "show_floor"});
   Look look;
   std::vector<std::string_view> fields;
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
@@ -208,6 +218,7 @@ Look read_look(const JsonPlace& place) {
                   ", expected an end above the beginning");
     look.range = {ends.x, ends.y};
   }
+  if (const auto cut = place.find("cut")) look.cut = read_cut(*cut, dimension);
   for (const auto& [key, flag] :
        {std::pair{"show_walls", &Look::show_walls}, std::pair{"show_legend", &Look::show_legend},
         std::pair{"show_floor", &Look::show_floor}}) {
@@ -255,7 +266,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
   if (const auto bodies = root.find("bodies")) scene.bodies = read_bodies(*bodies, scene);
   if (const auto parameters = root.find("parameters")) scene.parameters = read_parameters(*parameters);
   if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
-  if (const auto look = root.find("look")) scene.look = read_look(*look);
+  if (const auto look = root.find("look")) scene.look = read_look(*look, scene.dimension);
   return scene;
 }
 

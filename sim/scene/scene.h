@@ -98,10 +98,18 @@ struct Camera {
   double field_of_view = 35;              // vertical, degrees
 };
 
+// The water cut open: what lies beyond a plane across an axis is not drawn.
+struct Cut {
+  int axis = 2;
+  double at = 0;           // m
+  bool keep_high = false;  // else the low side stays
+};
+
 struct Look {
   std::string colour_by = "speed";             // a name of colour_fields(), see sim/core/frame.h
   std::string colour_map = "water";            // a name of the renderer's colour maps
   std::optional<std::array<double, 2>> range;  // of the colour scale; from the run's own data where absent
+  std::optional<Cut> cut;
   std::string background = "light";            // light or dark
   bool show_walls = true, show_legend = true, show_floor = true;
 };

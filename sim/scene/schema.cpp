@@ -187,6 +187,14 @@ JsonNode camera_node() {
                     {"field_of_view", with_doc(std::move(angle), "Vertical, degrees.")}});
 }
 
+JsonNode cut_node() {
+  JsonNode node = object_of("Cuts the water open: only what lies on one side of a plane is drawn.",
+                            {{"axis", one_of_names(std::vector<std::string_view>{"x", "y", "z"})},
+                             {"at", typed("number", "Where the plane lies along the axis, in metres.")},
+                             {"keep", one_of_names(std::vector<std::string_view>{"low", "high"})}});
+  return node;
+}
+
 JsonNode look_node() {
   std::vector<std::string_view> fields;
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
@@ -198,6 +206,7 @@ JsonNode look_node() {
             "Field that colours the particles; microrotation and lost_vorticity are 0 while their models are off.")},
        {"colour_map", one_of_names(colour_map_names())},
        {"range", array_of(typed("number"), 2, 2, "Ends of the colour scale; from the run's data where absent.")},
+       {"cut", cut_node()},
        {"background", one_of_names(std::vector<std::string_view>{"light", "dark"})},
        {"show_walls", typed("boolean")},
        {"show_legend", typed("boolean")},

@@ -143,6 +143,11 @@ JsonNode look_node(const Look& look) {
   JsonNode node = JsonNode::object();
   node.add("colour_by", JsonNode::of(look.colour_by)).add("colour_map", JsonNode::of(look.colour_map));
   if (look.range) node.add("range", vector_node({(*look.range)[0], (*look.range)[1], 0}, 2));
+  if (look.cut) {
+    JsonNode cut = JsonNode::object();
+    cut.add("axis", JsonNode::of(std::string(1, "xyz"[look.cut->axis]))).add("at", JsonNode::of(look.cut->at));
+    node.add("cut", std::move(cut.add("keep", JsonNode::of(std::string(look.cut->keep_high ? "high" : "low")))));
+  }
   node.add("background", JsonNode::of(look.background)).add("show_walls", JsonNode::of(look.show_walls));
   return node.add("show_legend", JsonNode::of(look.show_legend)).add("show_floor", JsonNode::of(look.show_floor));
 }

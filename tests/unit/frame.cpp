@@ -109,3 +109,16 @@ TEST_CASE("the full micropolar model is on with viscosity alone", "[frame]") {
   parameters.viscosity.nu = 0.01;
   CHECK(colour_switch("microrotation", parameters).empty());
 }
+
+TEST_CASE("a cut keeps what lies on its side, with its colours") {
+  World world = make_world(splash());
+  const auto geometry = make_geometry(world.scene);
+  Frame frame = make_frame(world, "speed", geometry);
+  for (std::size_t i = 0; i < frame.value.size(); ++i) frame.value[i] = frame.position[i].y;
+  const Frame low = cut_open(frame, {1, 0.2, false}), high = cut_open(frame, {1, 0.2, true});
+  CHECK(low.position.size() + high.position.size() == frame.position.size());
+  REQUIRE(low.position.size() > 100);
+  REQUIRE(high.position.size() > 100);
+  for (const float y : low.value) CHECK(y <= 0.2f);
+  for (const float y : high.value) CHECK(y > 0.2f);
+}

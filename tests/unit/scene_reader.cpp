@@ -32,6 +32,7 @@ const std::string full_scene = R"json({
   "parameters": {"viscosity.nu": 0.01, "pressure.two_sided": true, "viscosity.form": "vector", "pressure.max_iterations": 50},
   "camera": {"position": [1, 2, 3], "target": [0, 0, 0], "field_of_view": 50},
   "look": {"colour_by": "speed", "colour_map": "magma", "range": [0, 5], "background": "dark",
+           "cut": {"axis": "z", "at": 0.7, "keep": "high"},
            "show_walls": false, "show_legend": false, "show_floor": false}
 })json";
 
@@ -79,6 +80,10 @@ TEST_CASE("every key arrives in the scene", "[scene]") {
   CHECK(scene.camera.field_of_view == 50);
   CHECK(scene.look.range == std::array{0.0, 5.0});
   CHECK_FALSE(scene.look.show_floor);
+  REQUIRE(scene.look.cut.has_value());
+  CHECK(scene.look.cut->axis == 2);
+  CHECK(scene.look.cut->at == 0.7);
+  CHECK(scene.look.cut->keep_high);
 }
 
 TEST_CASE("what is left out has its default", "[scene]") {
@@ -93,6 +98,7 @@ TEST_CASE("what is left out has its default", "[scene]") {
   CHECK(scene.domain.walls[0].kind == WallKind::slip);
   CHECK_FALSE(scene.camera.position.has_value());
   CHECK_FALSE(scene.look.range.has_value());
+  CHECK_FALSE(scene.look.cut.has_value());
 }
 
 TEST_CASE("a scene in 2D has two numbers to a vector", "[scene]") {
