@@ -34,7 +34,7 @@ void Interface::draw_toolbar(float height) {
   begin_panel("Tools", 0, 0, ImGui::GetIO().DisplaySize.x, height, ImGuiWindowFlags_NoScrollbar);
   const float em = ImGui::GetFontSize();
   ImGui::SetNextItemWidth(11 * em);
-  ImGui::SetNextWindowSizeConstraints({32 * em, 0}, {32 * em, ImGui::GetIO().DisplaySize.y - height});
+  ImGui::SetNextWindowSizeConstraints({44 * em, 0}, {44 * em, ImGui::GetIO().DisplaySize.y - height});
   if (ImGui::BeginCombo("##scene", scene_.name.empty() ? "choose a scene" : scene_.name.c_str())) {
     for (const SceneInfo& info : bundled_) draw_scene_choice(info);
     ImGui::EndCombo();
