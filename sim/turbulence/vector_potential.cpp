@@ -10,7 +10,7 @@ namespace {
 
 constexpr double spacing_of_nodes = 1.5;  // in particle spacings
 constexpr float sharpening = 0.31f;       // c of 1 - c delta^2
-constexpr int cycles = 3;
+constexpr int cycles = 2;
 constexpr int most_rounds = 8;  // of smoothing: more on coarser grids, where they cost little
 constexpr int coarsest_rounds = 16;
 
