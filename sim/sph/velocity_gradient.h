@@ -36,18 +36,26 @@ inline Vec8 reflect(const Vec8& v, Vec3 sign, Vec3 offset) {
   return {sign.x * v.x + offset.x, sign.y * v.y + offset.y, sign.z * v.z + offset.z, v.w};
 }
 
+// Calls body(slope, velocities, pairs) for the neighbours of particle i and for their reflections.
+template <class Images, class Body>
+inline void for_neighbour_velocities(const World& world, std::size_t i, const Images& images, Body&& body) {
+  const Fields& f = world.fields;
+  for_pairs(world.neighbours, f.position.data(), i, images,
+            [&](const Pairs& p) { body(world.kernel.slope(p.r2), gather(f.velocity.data(), p.j), p); });
+  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+    body(weight * world.kernel.slope(p.r2), reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset),
+         p);
+  });
+}
+
 // curl v (1/s).
 template <class Images>
 Vec3 velocity_curl(const World& world, std::size_t i, const Images& images) {
   const Fields& f = world.fields;
   const Vec3 v = f.velocity[i];
   VectorSum curl;
-  for_pairs(world.neighbours, f.position.data(), i, images,
-            [&](const Pairs& p) { curl.add_curl(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
-  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
-    const Vec8 other = reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset);
-    curl.add_curl(weight * world.kernel.slope(p.r2), v, other, p);
-  });
+  for_neighbour_velocities(world, i, images,
+                           [&](f8 slope, const Vec8& other, const Pairs& p) { curl.add_curl(slope, v, other, p); });
   Vec3 total = world.mass * curl.total();
   if (!f.no_slip_gradient.empty()) total += cross(v, f.no_slip_gradient[i]);
   return 1 / f.density[i] * total;
@@ -86,12 +94,8 @@ VelocityGradient velocity_gradient(const World& world, std::size_t i, const Imag
   const Fields& f = world.fields;
   const Vec3 v = f.velocity[i];
   GradientSum sums;
-  for_pairs(world.neighbours, f.position.data(), i, images,
-            [&](const Pairs& p) { sums.add(world.kernel.slope(p.r2), v, gather(f.velocity.data(), p.j), p); });
-  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
-    const Vec8 other = reflect(gather(f.velocity.data(), p.j), r.velocity_sign, r.velocity_offset);
-    sums.add(weight * world.kernel.slope(p.r2), v, other, p);
-  });
+  for_neighbour_velocities(world, i, images,
+                           [&](f8 slope, const Vec8& other, const Pairs& p) { sums.add(slope, v, other, p); });
   const float volume = world.mass / f.density[i];
   const Vec3 moments = -volume * sums.moments.total(), mixed = -volume * sums.mixed.total();
   const Correction correction = gradient_correction(moments, mixed, world.scene.dimension);

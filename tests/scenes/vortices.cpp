@@ -55,6 +55,21 @@ Scene spinning_drop() {
   return scene;
 }
 
+// A drop that has turned for a second.
+struct Turned {
+  World world;
+  MomentumLedger ledger;
+  Momenta start;
+  double linear;  // sum m |v| at the start
+
+  explicit Turned(const Scene& scene)
+      : world(make_world(scene)), ledger(world), start(ledger.last), linear(absolute_momentum_sum(world)) {
+    const Plan plan = make_plan(world);
+    prepare(world, plan);
+    while (world.time < 1) step(world, plan, &ledger);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("the profile of an exact vortex is exact, and half of it is half", "[vortex]") {
@@ -147,38 +162,21 @@ TEST_CASE("on a coarse kernel Poisson's equation keeps what the sum cannot", "[v
 TEST_CASE("the conjugate curls keep the linear momentum of a spinning drop", "[vortex]") {
   Scene scene = micropolar(spinning_drop());
   scene.parameters.micropolar.curls = MicropolarParameters::curls_t::conjugate;
-  World world = make_world(scene);
-  const Plan plan = make_plan(world);
-  prepare(world, plan);
-  MomentumLedger ledger(world);
-  const Momenta start = ledger.last;
-  const double linear = absolute_momentum_sum(world);
-  while (world.time < 1) step(world, plan, &ledger);
+  const auto [world, ledger, start, linear] = Turned(scene);
   CHECK(length(ledger.last.linear - start.linear) < 1e-6 * linear);
   CHECK(length(ledger.last.spin) > 0.1 * length(start.orbital));
 }
 
 TEST_CASE("a spinning drop keeps its momenta under pressure alone", "[vortex]") {
-  World world = make_world(spinning_drop());
-  const Plan plan = make_plan(world);
-  prepare(world, plan);
-  MomentumLedger ledger(world);
-  const Momenta start = ledger.last;
-  const double linear = absolute_momentum_sum(world);
-  while (world.time < 1) step(world, plan, &ledger);
+  const auto [world, ledger, start, linear] = Turned(spinning_drop());
   CHECK(length(ledger.last.linear - start.linear) < 1e-6 * linear);
   CHECK(length(ledger.last.orbital - start.orbital) < 1e-6 * length(start.orbital));
   CHECK(world.count > 1000);
 }
 
 TEST_CASE("of a spinning drop the micropolar model changes what its torque says", "[vortex]") {
-  World world = make_world(micropolar(spinning_drop()));
-  const Plan plan = make_plan(world);
-  prepare(world, plan);
-  MomentumLedger ledger(world);
-  const Momenta start = ledger.last;
-  const double linear = absolute_momentum_sum(world), angular = length(start.orbital);
-  while (world.time < 1) step(world, plan, &ledger);
+  const auto [world, ledger, start, linear] = Turned(micropolar(spinning_drop()));
+  const double angular = length(start.orbital);
   const Momenta now = ledger.last;
   const Vec3d drift = now.orbital + now.spin - start.orbital - start.spin;
   const Vec3d surface = ledger.by("apply_forces").orbital - ledger.spin_torque;
