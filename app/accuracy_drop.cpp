@@ -7,6 +7,7 @@
 #include "app/progress.h"
 #include "sim/core/error.h"
 #include "sim/measure/momentum_ledger.h"
+#include "sim/scene/resolution.h"
 
 namespace curlew {
 namespace {
@@ -93,7 +94,7 @@ void spinning_drop_accuracy(const BenchOptions& options) {
     table.print();
     std::printf("\nTorque on paper for c = 0.05 m^2/s: %.2f.\n", torque);
     std::printf("\nOf the residual, and by passes (linear, angular):\n\n%s", notes.c_str());
-    table.write("accuracy_spinning_drop", options);
+    table.write("accuracy_spinning_drop_" + std::to_string(std::llround(estimate_particles(scene))), options);
   }
 }
 

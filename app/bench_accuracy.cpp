@@ -6,6 +6,7 @@
 
 #include "app/accuracy.h"
 #include "app/assets.h"
+#include "app/methods.h"
 #include "app/numbers.h"
 #include "app/setup.h"
 #include "sim/core/error.h"
@@ -59,6 +60,8 @@ const std::vector<AccuracyMethod>& accuracy_methods() {
 }
 
 std::vector<Scene> accuracy_scenes(const std::string& name, const BenchOptions& options) {
+  check_free(options.settings, {"viscosity.nu", "vorticity_refinement.reconstruction", "micropolar.eta",
+                                "micropolar.curls", "micropolar.model"});
   Scene scene = read_scene(find_scene(name, assets_folder()));
   apply_settings(scene.parameters, options.settings);
   std::vector<Scene> scenes;

@@ -10,6 +10,7 @@
 #include "app/bench.h"
 #include "app/methods.h"
 #include "app/progress.h"
+#include "sim/core/error.h"
 #include "sim/sph/motion.h"
 
 namespace curlew {
@@ -22,8 +23,8 @@ constexpr int settling_steps = 3;  // a model that was off a moment ago has noth
 constexpr int timed_steps = 10;
 
 // The passes of a model; vorticity counts where only confinement asks for it, as here.
-constexpr const char* model_passes[] = {
-    "vorticity_refinement", "vorticity_prediction", "micropolar", "vorticity_confinement", "vorticity"};
+constexpr const char* model_passes[] = {"vorticity_refinement", "vorticity_prediction", "micropolar",
+                                        "vorticity_confinement", "vorticity"};
 
 // What a model may cost, in sweeps.
 double sweep_limit(const Method& m) { return (m.alpha > 0 ? 5 : 0) + (m.nu_t > 0 ? 2 : 0) + (m.epsilon > 0 ? 2 : 0); }
@@ -173,6 +174,8 @@ int bench_overhead(const BenchOptions& options) {
       options.methods.empty() ? std::vector<std::string>{"vc0.1", "mp0.05", "vr1.0", "sum1.0", "vr1.0+mp0.05"}
                               : options.methods);
   std::erase(methods, Method{});
+  if (methods.empty())
+    throw InputError("--methods names dfsph alone, which the others are compared with; name another");
   const Scene scene = bench_scene("dam_break", 0, single_case(options, "97k"), options);
   const World start = flowing_water(scene, options.time.value_or(0.4));
   std::printf("dam_break, %zu particles, viscosity.nu = %g, from the state at %.2f s, %d threads, %s\n", start.count,

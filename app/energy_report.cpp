@@ -45,7 +45,7 @@ bool is_one_of(double value, std::initializer_list<double> values) {
 
 // What section 5.1 and the captions of Fig. 7 and 10 say.
 std::string paper_words(const EnergyScene& scene, const Method& m) {
-  const bool refined = m == Method{.alpha = m.alpha}, micropolar = m == Method{.nu_t = m.nu_t};
+  const bool refined = m == Method{.alpha = m.alpha, .sum = m.sum}, micropolar = m == Method{.nu_t = m.nu_t};
   if (m.is_plain()) return "the reference; at rest at the end";
   if (!refined && !micropolar) return "not shown";
   if (scene.name == "dam_break") {
@@ -127,6 +127,7 @@ std::string energy_table(const EnergyScene& scene, const std::vector<EnergyCurve
   std::string out = scene.title + ", " + run + " (`" + command + "`). Mechanical energy is kinetic plus potential, " +
                     "from the floor. Increase: mean of (mechanical energy / that of DFSPH at the same time - 1) " +
                     text("from %g to %g s. ", scene.flow_begin, window_end) +
+                    "VR reconstructs by Poisson's equation unless it says sum, which is the paper's way. " +
                     "Kinetic: mean over the last second. Calm: this is below " +
                     text("%g times DFSPH's own or below %g %% of the energy that the water had to give, ",
                          calm_over_dfsph, 100 * calm_share) +

@@ -292,7 +292,8 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
 // The steps run the plan that needs no picture; what only the picture needs runs when one is taken.
 void Session::plan() {
   const Plan bare = make_plan(world_), full = make_plan(world_, colour_demand(colour_));
-  const bool changed = bare.step != plan_.step;
+  // What a field that is new holds, somebody has to find out first.
+  const bool changed = bare.step != plan_.step || !(full.fields.without(plan_.fields) == FieldSet());
   if (changed) budget_ = EnergyBudget(bare);
   plan_ = bare;
   plan_.fields = full.fields;

@@ -58,7 +58,7 @@ constexpr Pass passes[] = {
      .run = divergence_solve,
      .changes_velocity = true},
     {.name = "vorticity_refinement",
-     .reads = {position, velocity, density, neighbour_number, predicted_vorticity, no_slip_gradient},
+     .reads = {position, velocity, density, neighbour_number, predicted_vorticity},
      .writes = {velocity, lost_vorticity, stream_function},
      .wanted = refines_vorticity,
      .run = refine_vorticity,
@@ -99,7 +99,7 @@ constexpr Pass passes[] = {
      .run = xsph,
      .changes_velocity = true},
     {.name = "vorticity_prediction",
-     .reads = {position, velocity, density, no_slip_gradient},
+     .reads = {position, velocity, density},
      .writes = {predicted_vorticity},
      .wanted = refines_vorticity,
      .run = predict_vorticity},
@@ -175,7 +175,7 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
-  const bool curls = refines_vorticity(world) || confines_vorticity(world) || is_micropolar(world);
+  const bool curls = confines_vorticity(world) || is_micropolar(world);
   if (!world.bodies.any_no_slip() || !(curls || demanded.has(vorticity))) {
     unused = unused | FieldSet{no_slip_gradient};
   }
@@ -282,9 +282,14 @@ void allocate(World& world, const Plan& plan) {
     if (present) {
       array.resize(world.count);
     } else {
-      array = {};
+      array = std::remove_cvref_t<decltype(array)>();  // gives the memory back; "= {}" would keep it
     }
   });
+  for_each_field(world.sort_space, [&](const FieldRow& row, auto& array) {
+    if (row.kind != FieldKind::kept && !plan.fields.has(row.id)) array = std::remove_cvref_t<decltype(array)>();
+  });
+  if (world.fields.microrotation.empty()) world.backup.microrotation = Array<Vec3>();
+  if (world.fields.predicted_vorticity.empty()) world.backup.predicted_vorticity = Array<Vec3>();
   if (!solves_poisson(world)) {
     world.potential = {};
   } else if (world.potential.empty()) {

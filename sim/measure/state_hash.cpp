@@ -17,22 +17,25 @@ struct HashDeleter {
   void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
 };
 
-// The bytes of a value that count.
+// The bytes of a value that count: of vectors not the spare number, but where a model keeps something in it.
 template <class T>
-constexpr std::size_t hashed_bytes = std::is_same_v<T, Vec3> ? 3 * sizeof(float) : sizeof(T);
+std::size_t hashed_bytes(const FieldRow& row) {
+  return std::is_same_v<T, Vec3> && row.kind != FieldKind::model ? 3 * sizeof(float) : sizeof(T);
+}
 
 template <class T>
-void hash_in_order(XXH3_state_t* state, std::span<const T> values, std::span<const std::uint32_t> order) {
+void hash_in_order(XXH3_state_t* state, std::span<const T> values, std::span<const std::uint32_t> order,
+                   std::size_t bytes) {
   constexpr std::size_t block = 1024;
-  std::array<std::byte, block * hashed_bytes<T>> gathered;
+  std::array<std::byte, block * sizeof(T)> gathered;
   for (std::size_t begin = 0; begin < order.size(); begin += block) {
     const auto places = order.subspan(begin, std::min(block, order.size() - begin));
     std::byte* out = gathered.data();
     for (const std::uint32_t place : places) {
-      std::memcpy(out, &values[place], hashed_bytes<T>);
-      out += hashed_bytes<T>;
+      std::memcpy(out, &values[place], bytes);
+      out += bytes;
     }
-    XXH3_64bits_update(state, gathered.data(), places.size() * hashed_bytes<T>);
+    XXH3_64bits_update(state, gathered.data(), places.size() * bytes);
   }
 }
 
@@ -73,7 +76,8 @@ std::uint64_t state_hash(const Fields& fields) {
       throw std::logic_error("state hash: " + std::string(row.name) + " has another length than id");
     }
     XXH3_64bits_update(state.get(), row.name.data(), row.name.size());
-    hash_in_order(state.get(), std::span(array), order);
+    using Value = typename std::remove_cvref_t<decltype(array)>::value_type;
+    hash_in_order(state.get(), std::span(array), order, hashed_bytes<Value>(row));
   });
   return XXH3_64bits_digest(state.get());
 }

@@ -110,7 +110,7 @@ struct Look {
   std::string colour_map = "water";            // a name of the renderer's colour maps
   std::optional<std::array<double, 2>> range;  // of the colour scale; from the run's own data where absent
   std::optional<Cut> cut;
-  std::string background = "light";            // light or dark
+  std::string background = "light";  // light or dark
   bool show_walls = true, show_legend = true, show_floor = true;
 };
 

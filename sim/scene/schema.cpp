@@ -189,8 +189,8 @@ JsonNode camera_node() {
 
 JsonNode cut_node() {
   JsonNode node = object_of("Cuts the water open: only what lies on one side of a plane is drawn.",
-                            {{"axis", one_of_names(std::vector<std::string_view>{"x", "y", "z"})},
-                             {"at", typed("number", "Where the plane lies along the axis, in metres.")},
+                            {{"axis", one_of_names(std::vector<std::string_view>{"x", "y", "z"}), true},
+                             {"at", typed("number", "Where the plane lies along the axis, in metres."), true},
                              {"keep", one_of_names(std::vector<std::string_view>{"low", "high"})}});
   return node;
 }

@@ -1,5 +1,6 @@
 // Derivatives of the velocity at one particle, in the difference form (Liu et al. 2020, Eq. 3, 6). Walls count as the
-// fluid's reflections in them, no-slip bodies as samples that stand still.
+// fluid's reflections in them; in the curl no-slip bodies count as samples that stand still, in the gradient, which is
+// corrected for missing neighbours instead, bodies do not.
 #pragma once
 
 #include "sim/sph/pair_sums.h"

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+Vec3 times(Vec3 a, Vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
 // Integral of f(r) over a k-flat at distance s from the origin, out to r = end; f is smooth but for a kink at end/2.
 template <class F>
 double flat_integral(int k, double s, double end, F&& f) {
@@ -150,25 +152,29 @@ int Walls::reflections(Vec3 position, Reflection* found) const {
   for (const Face& face : faces_) {
     const float x = position[face.axis] - face.plane;
     if (std::abs(x) >= support_) continue;
+    Reflection own;
+    own.sign[face.axis] = -1;
+    own.offset[face.axis] = 2 * x;
+    for (int axis = 0; axis < 3; ++axis) {
+      own.velocity_sign[axis] = face.no_slip || axis == face.axis ? -1.0f : 1.0f;
+      own.spin_sign[axis] = face.no_slip || axis != face.axis ? -1.0f : 1.0f;
+    }
+    if (face.no_slip) own.velocity_offset = 2.0f * face.velocity;
+    // The velocity of an image of an image depends on which wall comes first where walls move: the mean of both.
     const auto mirrored = [&](Reflection r) {
-      r.sign[face.axis] = -1;
-      r.offset[face.axis] = 2 * x;
-      if (face.no_slip) {
-        r.velocity_sign = -1.0f * r.velocity_sign;
-        r.velocity_offset = 2.0f * face.velocity - r.velocity_offset;
-        r.spin_sign = -1.0f * r.spin_sign;
-      } else {
-        r.velocity_sign[face.axis] *= -1;
-        r.velocity_offset[face.axis] *= -1;
-        for (int along = 0; along < 3; ++along) r.spin_sign[along] *= along == face.axis ? 1.0f : -1.0f;
-      }
+      r.velocity_offset = 0.5f * (times(own.velocity_sign, r.velocity_offset) + own.velocity_offset +
+                                  times(r.velocity_sign, own.velocity_offset) + r.velocity_offset);
+      r.sign = times(r.sign, own.sign);
+      r.offset += own.offset;
+      r.velocity_sign = times(r.velocity_sign, own.velocity_sign);
+      r.spin_sign = times(r.spin_sign, own.spin_sign);
       return r;
     };
     // With all images in faces of other axes, for edges and corners.
     for (int k = 0, before = number; k < before; ++k) {
       if (found[k].sign[face.axis] > 0) found[number++] = mirrored(found[k]);
     }
-    found[number++] = mirrored({});
+    found[number++] = own;
   }
   return number;
 }

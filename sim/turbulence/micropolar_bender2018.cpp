@@ -128,8 +128,9 @@ double micropolar_step_limit(const World& world) {
   const double d = world.scene.spacing(), coupling = std::abs(transfer_coefficient(all));
   double dt = std::numeric_limits<double>::max();
   if (coupling == 0) return dt;
-  // Spin and flow exchange at the rate (nu + nu_t) k / sqrt(Theta), at most with k = 1/d or so.
-  dt = 0.5 * std::sqrt(p.theta) * d / coupling;
+  // Spin and flow exchange at the rate c k / sqrt(Theta), with k = 1/d at most or so, and where Theta is so small that
+  // the spin follows the flow at once, flow grows or decays at c k^2 / 2.
+  dt = std::max(0.5 * std::sqrt(p.theta) * d / coupling, 0.25 * d * d / coupling);
   if (is_full(all) && p.zeta > 0) dt = std::min(dt, all.time.viscosity_factor * d * d * p.theta / p.zeta);
   if (p.xsph_form == Micropolar::xsph_form_t::rate && p.eta > 0) dt = std::min(dt, 0.5 * p.xsph_reference_step / p.eta);
   return dt;

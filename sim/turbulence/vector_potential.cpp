@@ -1,8 +1,10 @@
 #include "sim/turbulence/vector_potential.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/error.h"
 #include "sim/core/parallel.h"
 
 namespace curlew {
@@ -11,7 +13,8 @@ namespace {
 constexpr double spacing_of_nodes = 1.5;  // in particle spacings
 constexpr float sharpening = 0.31f;       // c of 1 - c delta^2
 constexpr int cycles = 2;
-constexpr int most_rounds = 8;  // of smoothing: more on coarser grids, where they cost little
+constexpr double most_nodes = 5e7;  // 2.7 GB
+constexpr int most_rounds = 8;      // of smoothing: more on coarser grids, where they cost little
 constexpr int coarsest_rounds = 16;
 
 f4& quad(Vec3& v) { return reinterpret_cast<f4&>(v); }
@@ -62,6 +65,13 @@ VectorPotential::VectorPotential(const Scene& scene) : dimension_(scene.dimensio
     inverse_spacing_[axis] = static_cast<float>(intervals[axis] / length[axis]);
   }
   origin_ = to_float(scene.domain.min);
+  const double number = (intervals[0] + 1.0) * (intervals[1] + 1.0) * (intervals[2] + 1.0);
+  if (number > most_nodes) {
+    throw InputError("the domain holds " + number_text(std::round(1e-6 * number)) +
+                     " million nodes of the grid that vorticity_refinement.reconstruction = poisson needs, more than " +
+                     number_text(1e-6 * most_nodes) +
+                     " million; use a smaller domain, a larger particle radius, or sum");
+  }
   for (bool coarsened = true; coarsened;) {
     coarsened = false;
     Level& level = levels_.emplace_back();
@@ -76,6 +86,65 @@ VectorPotential::VectorPotential(const Scene& scene) : dimension_(scene.dimensio
       coarsened = true;
     }
     level.allocate();
+    prepare_lines(level);
+  }
+}
+
+// In a thin domain the coarse levels' points are so near each other across it that point by point only the
+// differences between them would settle, not what they have in common.
+void VectorPotential::prepare_lines(Level& level) const {
+  for (int axis = 0; axis < dimension_; ++axis) {
+    const bool strongest = level.line_axis < 0 || level.weight[axis] > level.weight[level.line_axis];
+    if (level.coarser[axis] == 1 && level.nodes[axis] <= longest_line && strongest) level.line_axis = axis;
+  }
+  if (level.line_axis < 0) return;
+  const int axis = level.line_axis, n = level.nodes[axis];
+  for (int across = 0; across < 2; ++across) {
+    const double w = double{level.weight[axis]}, sign = across ? -1 : 1;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    for (int k = 0; k < n; ++k) {
+      matrix(k, k) += 2 * double{level.weight.x + level.weight.y + level.weight.z};
+      for (const int next : {k - 1, k + 1}) {
+        const bool beyond = next < 0 || next >= n;
+        const int seen = !beyond ? next : periodic_[axis] ? (next + n) % n : next < 0 ? 1 : n - 2;
+        matrix(k, seen) -= beyond && !periodic_[axis] ? sign * w : w;
+      }
+    }
+    const Eigen::MatrixXd inverse = matrix.inverse();
+    for (int k = 0; k < n; ++k) {
+      for (int l = 0; l < n; ++l) level.line_inverse[across][k][l] = static_cast<float>(inverse(k, l));
+    }
+  }
+}
+
+// Gauss-Seidel of whole lines, even and odd ones in turns.
+void VectorPotential::smooth_lines(Level& level, int rounds) const {
+  const int axis = level.line_axis, n = level.nodes[axis];
+  const int b = axis == 0 ? 1 : 0, c = axis == 2 ? 1 : 2;
+  const float wb = level.weight[b], wc = level.weight[c];
+  const std::ptrdiff_t along = level.stride[axis], sb = level.stride[b], sc = c < dimension_ ? level.stride[c] : 0;
+  const Vec3 mask{axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f};
+  for (int half = 0; half < 2 * rounds; ++half) {
+    for (int v = 0; v < level.nodes[c]; ++v) {
+      for (int u = (v + half) & 1; u < level.nodes[b]; u += 2) {
+        const std::ptrdiff_t first = level.at(0, 0, 0) + u * sb + v * level.stride[c];
+        f4 right[longest_line];
+        for (int k = 0; k < n; ++k) {
+          const Vec3* psi = &level.psi[first + k * along];
+          right[k] = quad(level.source[first + k * along]) + wb * (quad(psi[-sb]) + quad(psi[sb])) +
+                     wc * (quad(psi[-sc]) + quad(psi[sc]));
+        }
+        for (int k = 0; k < n; ++k) {
+          f4 own{}, other{};
+          for (int l = 0; l < n; ++l) {
+            own += level.line_inverse[0][k][l] * right[l];
+            other += level.line_inverse[1][k][l] * right[l];
+          }
+          quad(level.psi[first + k * along]) = other + quad(mask) * (own - other);
+        }
+      }
+    }
+    fill_ghosts(level, level.psi);
   }
 }
 
@@ -244,6 +313,7 @@ void VectorPotential::remove_means() {
 
 // Gauss-Seidel, even nodes and odd ones in turns.
 void VectorPotential::smooth(Level& level, int rounds) const {
+  if (level.line_axis >= 0) return smooth_lines(level, rounds);
   const Vec3 w = level.weight;
   const float inverse = 1 / (2 * (w.x + w.y + w.z));
   const std::ptrdiff_t sy = level.stride[1], sz = level.stride[2];

@@ -7,9 +7,9 @@
 // and never with more than 1.02 (tests/scenes/vorticity_refinement.cpp). The error of three cycles is below that by
 // far.
 //
-// In the faces of the domain the flow is mirrored, as in slip walls: of psi, an axial vector, the part along a face is
-// odd, the part across even, and no flow goes through. Axes may be periodic. Sums are gathered in an order that does
-// not depend on the number of threads.
+// In the faces of the domain, open ones too, the flow is mirrored, as in slip walls: of psi, an axial vector, the part
+// along a face is odd, the part across even, and no flow goes through. Axes may be periodic. Sums are gathered in an
+// order that does not depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -26,6 +26,7 @@ namespace curlew {
 class VectorPotential {
  public:
   VectorPotential() = default;
+  // Throws InputError where the domain is too large for its grid.
   explicit VectorPotential(const Scene& scene);
 
   bool empty() const { return levels_.empty(); }
@@ -40,12 +41,17 @@ class VectorPotential {
 
  private:
   using Nodes = Array<Vec3>;
+  static constexpr int longest_line = 8;
 
   // A grid with one ghost node at each end of each axis that has more than one node.
   struct Level {
     std::array<int, 3> nodes{1, 1, 1}, ghosts{};  // nodes without ghosts; ghosts at each end
     std::array<int, 3> coarser{1, 1, 1};          // 2 where the next level has half the intervals
     Vec3 weight;                                  // 1 / h^2 along each axis, 0 along an axis that is not there
+    // Lines of few nodes along an axis that is not coarsened further are solved whole; -1 where there is none. For the
+    // components along the line and across it: the inverse of the Laplacian along it plus the other weights.
+    int line_axis = -1;
+    std::array<std::array<std::array<float, longest_line>, longest_line>, 2> line_inverse{};
     std::array<std::ptrdiff_t, 3> stride{};
     Nodes psi, source, residual;
 
@@ -66,7 +72,9 @@ class VectorPotential {
   void sharpen();
   void remove_means();
   void fill_ghosts(const Level& level, Nodes& values) const;
+  void prepare_lines(Level& level) const;
   void smooth(Level& level, int rounds) const;
+  void smooth_lines(Level& level, int rounds) const;
   void find_residual(Level& level) const;
   void cycle(std::size_t depth);
 

@@ -85,6 +85,7 @@ void add_curl_of_stream_function(World& world) {
 // The same from the potential on the grid.
 void add_curl_of_potential(World& world) {
   Fields& f = world.fields;
+  if (world.potential.empty()) world.potential = VectorPotential(world.scene);
   world.potential.solve(f.position, f.lost_vorticity);
   const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
   parallel_for(world.count, [&](std::size_t i) {
@@ -97,7 +98,8 @@ void add_curl_of_potential(World& world) {
 
 void refine_vorticity(World& world) {
   find_loss(world);
-  if (!world.potential.empty()) return add_curl_of_potential(world);
+  using enum VorticityRefinementParameters::reconstruction_t;
+  if (world.parameters().vorticity_refinement.reconstruction == poisson) return add_curl_of_potential(world);
   sum_stream_function(world);
   add_curl_of_stream_function(world);
 }

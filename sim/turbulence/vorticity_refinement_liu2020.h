@@ -8,7 +8,8 @@
 //
 // zeta is taken after the forces and XSPH, which change vorticity because they are meant to: the paper's nu lap zeta is
 // the curl of the viscous force, and walls, the micropolar model and confinement come in the same way. Both curls use
-// the neighbours of their own positions; no-slip surfaces count as in the velocity gradient.
+// the neighbours of their own positions. Walls count as in the velocity gradient; beside bodies, as at a free surface,
+// particles are not surrounded well enough to be believed.
 //
 // reconstruction = sum:     psi_i = sum dzeta_j V_j / (4 pi r_ij) over neighbours within 0.995 of the support; in 2D
 //                           -sum dzeta_j V_j ln(r_ij / R) / (2 pi). The cut makes it a band-pass: of a loss with the

@@ -167,3 +167,34 @@ TEST_CASE("rigid rotation and uniform motion lose nothing, so nothing is added",
     }
   }
 }
+
+TEST_CASE("the largest swirl of a thin domain comes back too", "[refinement]") {
+  for (const Vec3d size : {Vec3d{0.192, 0.096, 0.021}, Vec3d{0.192, 0.192, 0.006}, Vec3d{0.08, 0.04, 0}}) {
+    Scene scene = empty_box(size, 1000);
+    scene.fluid = {moving(Box{{0, 0, 0}, size}, {})};
+    const World world = make_world(scene);
+    const double kx = std::numbers::pi / size.x, ky = std::numbers::pi / size.y;
+    Array<Vec3> vorticity(world.count);
+    for (std::size_t i = 0; i < world.count; ++i) {
+      const Vec3d x = to_double(world.fields.position[i]);
+      vorticity[i] = to_float({0, 0, (kx * kx + ky * ky) * std::sin(kx * x.x) * std::sin(ky * x.y)});
+      vorticity[i].w = static_cast<float>(std::pow(scene.spacing(), scene.dimension));
+    }
+    VectorPotential potential(scene);
+    potential.solve(world.fields.position, vorticity);
+    double found = 0, whole = 0;
+    for (std::size_t i = 0; i < world.count; ++i) {
+      const Vec3d x = to_double(world.fields.position[i]);
+      const Vec3d exact{ky * std::sin(kx * x.x) * std::cos(ky * x.y), -kx * std::cos(kx * x.x) * std::sin(ky * x.y), 0};
+      found += dot(exact, to_double(potential.curl(world.fields.position[i])));
+      whole += dot(exact, exact);
+    }
+    INFO(size.x << " x " << size.y << " x " << size.z);
+    CHECK(found / whole == Approx(1).margin(0.02));
+  }
+}
+
+TEST_CASE("a domain too large for the grid is told, not run out of memory", "[refinement]") {
+  Scene scene = empty_box({1, 1, 1}, 1000);
+  CHECK_THROWS_WITH(VectorPotential(scene), Catch::Contains("million nodes") && Catch::Contains("or sum"));
+}

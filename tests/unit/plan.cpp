@@ -132,3 +132,20 @@ TEST_CASE("a pass touches only fields that exist", "[plan]") {
     CHECK(array.size() == (expected ? world.count : 0));
   });
 }
+
+TEST_CASE("a model that was on and is off again has given its memory back", "[plan]") {
+  World world = make_world(small_scene());
+  Plan plan = make_plan(world);
+  prepare(world, plan);
+  for (int k = 0; k < 3; ++k) step(world, plan);
+  const std::size_t before = allocated_bytes(world);
+  for (const double on : {1.0, 0.0}) {
+    world.scene.parameters.vorticity_refinement.alpha = on;
+    world.scene.parameters.micropolar.nu_t = 0.1 * on;
+    plan = make_plan(world);
+    prepare(world, plan);
+    for (int k = 0; k < 3; ++k) step(world, plan);
+    if (on > 0) CHECK(allocated_bytes(world) > before);
+  }
+  CHECK(static_cast<double>(allocated_bytes(world)) < 1.01 * static_cast<double>(before));
+}
