@@ -69,6 +69,7 @@ struct VelocityGradient {
   float surrounded = 0;
 
   Vec3 curl() const { return {z.y - y.z, x.z - z.x, y.x - x.y}; }
+  float divergence() const { return x.x + y.y + z.z; }
   // (a . grad) v
   Vec3 along(Vec3 a) const { return {dot(a, x), dot(a, y), dot(a, z)}; }
 };

@@ -113,7 +113,7 @@ void predict_vorticity(World& world) {
     parallel_for(world.count, [&](std::size_t i) {
       const VelocityGradient gradient = velocity_gradient(world, i, images);
       Vec3 zeta = gradient.curl();
-      zeta += dt * gradient.along(zeta);
+      zeta += dt * (gradient.along(zeta) - gradient.divergence() * zeta);
       zeta.w = gradient.surrounded >= surrounded ? 1.0f : 0.0f;
       f.predicted_vorticity[i] = zeta;
     });

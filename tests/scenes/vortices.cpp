@@ -167,6 +167,12 @@ TEST_CASE("the conjugate curls keep the linear momentum of a spinning drop", "[v
   CHECK(length(ledger.last.spin) > 0.1 * length(start.orbital));
 }
 
+TEST_CASE("refinement takes the expansion of a spinning drop into account", "[vortex]") {
+  const auto [world, ledger, start, linear] = Turned(refined(spinning_drop(), Reconstruction::poisson));
+  CHECK(length(ledger.last.linear - start.linear) < 1e-5 * linear);
+  CHECK(length(ledger.last.orbital - start.orbital) < 5e-3 * length(start.orbital));
+}
+
 TEST_CASE("a spinning drop keeps its momenta under pressure alone", "[vortex]") {
   const auto [world, ledger, start, linear] = Turned(spinning_drop());
   CHECK(length(ledger.last.linear - start.linear) < 1e-6 * linear);
