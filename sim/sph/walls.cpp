@@ -157,9 +157,11 @@ int Walls::reflections(Vec3 position, Reflection* found) const {
     own.offset[face.axis] = 2 * x;
     for (int axis = 0; axis < 3; ++axis) {
       own.velocity_sign[axis] = face.no_slip || axis == face.axis ? -1.0f : 1.0f;
-      own.spin_sign[axis] = face.no_slip || axis != face.axis ? -1.0f : 1.0f;
     }
-    if (face.no_slip) own.velocity_offset = 2.0f * face.velocity;
+    if (face.no_slip) {
+      own.velocity_offset = 2.0f * face.velocity;
+      own.spin_sign = {-1, -1, -1};
+    }
     // The velocity of an image of an image depends on which wall comes first where walls move: the mean of both.
     const auto mirrored = [&](Reflection r) {
       r.velocity_offset = 0.5f * (times(own.velocity_sign, r.velocity_offset) + own.velocity_offset +
