@@ -5,6 +5,7 @@
 
 #include "sim/measure/state_hash.h"
 #include "sim/sph/motion.h"
+#include "sim/turbulence/micropolar_bender2018.h"
 #include "tests/scenes/scene_test.h"
 
 using namespace curlew;
@@ -161,4 +162,28 @@ TEST_CASE("smoothing spins keeps their sum and takes their energy", "[micropolar
   run.take_steps(20);
   CHECK(run.now().sums.rotational < 0.98 * before);
   CHECK(sum(run.world) == Approx(mean).epsilon(1e-4));
+}
+
+TEST_CASE("a slip wall leaves spinning water at rest, a no-slip wall drags at it", "[micropolar]") {
+  for (const WallKind kind : {WallKind::slip, WallKind::no_slip}) {
+    Scene scene = empty_box({0.4, 0.4, 0}, 50);
+    for (Wall& wall : scene.domain.walls) wall.kind = kind;
+    scene.gravity = {};
+    scene.fluid = {moving(Box{{0, 0, 0}, scene.domain.max}, {})};
+    scene.parameters.micropolar.nu_t = 0.1;
+    World world = make_world(scene);
+    prepare(world, make_plan(world));
+    for (std::size_t i = 0; i < world.count; ++i) {
+      world.fields.microrotation[i] = {0, 0, 2};
+      world.fields.acceleration[i] = {};
+    }
+    couple_spin_and_flow(world);
+    for (std::size_t i = 0; i < world.count; ++i) {
+      const Vec3 x = world.fields.position[i], a = world.fields.acceleration[i];
+      const bool at_floor = x.y < 0.02f && x.x > 0.1f && x.x < 0.3f;
+      if (kind == WallKind::slip) CHECK(length(a) < 1e-3f);
+      // The spin falls from 2 to none within half a spacing of the floor: the curl of it points along the floor.
+      if (kind == WallKind::no_slip && at_floor) CHECK(a.x > 1);
+    }
+  }
 }
