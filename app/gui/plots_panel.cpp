@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/gui/interface.h"
+#include "app/gui/style.h"
 #include "sim/io/atomic_file.h"
 
 namespace curlew {
@@ -63,12 +64,12 @@ void Interface::draw_plots() {
   mark("hold plots");
   const std::vector<Sample>& samples = plots_paused_ ? paused_samples_ : samples_;
   std::vector<Plot> plots{energy_plot(samples)};
-  Plot budget = budget_plot(samples);
-  if (!budget.series.empty()) plots.push_back(std::move(budget));
   plots.insert(plots.end(), always.begin(), always.end());
+  Plot budget = budget_plot(samples);  // comes with the first step, and last, so that nothing jumps
+  if (!budget.series.empty()) plots.push_back(std::move(budget));
   for (const Plot& plot : plots) {
-    ImGui::SameLine();
     const std::string label = plot.title + ".csv";
+    same_line_if_fits(label.c_str());
     if (button(label.c_str(), "Write this plot's numbers to a file", !samples.empty())) {
       try {
         std::string kind = plot.title;

@@ -128,7 +128,7 @@ TEST_CASE("the overhead bench compares each method with plain DFSPH") {
   CHECK(outcome.code == 0);
   CHECK(outcome.out.starts_with("dam_break, 512 particles, viscosity.nu = 0, from the state at 0.02"));
   CHECK(outcome.out.find("| 13.0 + 2.0 | 13.0 + 2.0 |\n") != std::string::npos);
-  for (const char* words : {"\n| MP 0.05 | ", " | 2 | micropolar ", ", spin ", "\n| VR 1.00 + VC 0.10 | ",
+  for (const char* words : {"\n| MP 0.05 | ", " | 2 | micropolar ", "\n| VR 1.00 + VC 0.10 | ",
                             " | 7 | vorticity_refinement ", ", vorticity_confinement ", ", vorticity "}) {
     INFO(words);
     CHECK(outcome.out.find(words) != std::string::npos);

@@ -32,11 +32,17 @@ TEST_CASE("the accuracy bench prints its tables and writes them") {
   CHECK(bench.code == 0);
   CHECK(bench.out.find("| DFSPH | ") != std::string::npos);
   CHECK(bench.out.find("MP 0.05 over DFSPH") != std::string::npos);
-  CHECK(bench.out.find("VR 1 poisson:") != std::string::npos);
+  CHECK(bench.out.find("VR 1 sum:") != std::string::npos);
   const auto vortex = lines_of(text_of(folder / "tables/accuracy_gresho_chan_20.csv"));
   REQUIRE(vortex.size() > 6);
   CHECK(vortex[0] == "method,peak retained,L1 velocity error,kinetic energy retained,steps,wall s");
   CHECK(vortex[1].starts_with("DFSPH,"));
   CHECK(lines_of(text_of(folder / "tables/accuracy_gresho_chan_20_profile.csv")).size() > 50);
-  CHECK(lines_of(text_of(folder / "tables/accuracy_spinning_drop.csv")).size() > 6);
+  std::size_t tables = 0;
+  for (const std::string& file : folder.contents()) {
+    if (!file.starts_with("tables/accuracy_spinning_drop_")) continue;
+    ++tables;
+    CHECK(lines_of(text_of(folder / file)).size() > 6);
+  }
+  CHECK(tables == 1);
 }

@@ -147,7 +147,11 @@ void Desk::drag_in_picture(float dx, float dy, int mouse_button) {
 
 void Desk::wheel(float notches) {
   const auto box = interface_->place("picture");
-  move_to(0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3]));
+  wheel_at(0.5f * (box[0] + box[2]), 0.5f * (box[1] + box[3]), notches);
+}
+
+void Desk::wheel_at(float x, float y, float notches) {
+  move_to(x, y);
   ImGui::GetIO().MouseWheel = notches;
   draw();
   ImGui::GetIO().MouseWheel = 0;

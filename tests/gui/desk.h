@@ -35,7 +35,8 @@ class Desk {
   // Ctrl-click, then the characters; the number counts when something else is clicked.
   void type(std::string_view widget, const char* text);
   void drag_in_picture(float dx, float dy, int mouse_button = 0);
-  void wheel(float notches);
+  void wheel(float notches);  // over the picture
+  void wheel_at(float x, float y, float notches);
   void key(int key, bool ctrl = false);
   void open(const std::string& scene);
   void restyle(bool dark, double scale);

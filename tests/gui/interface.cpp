@@ -433,17 +433,27 @@ TEST_CASE("saving does not replace what it has not written") {
 // Not a test: where the widgets of a new window are, for real_window.sh, one a line: left, top, right, bottom, name.
 TEST_CASE("places of the widgets", "[.places]") {
   const TemporaryFolder folder;
+  const auto print = [](Desk& desk, std::initializer_list<const char*> widgets) {
+    for (const char* widget : widgets) {
+      const auto box = desk.interface().place(widget);
+      std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
+    }
+  };
+  {
+    Desk desk(folder.path());
+    desk.open(small);
+    desk.draw();
+    desk.click("scene");
+    desk.draw();
+    print(desk, {"scene", "play", "step", "reset", "Picture", "Window", "Film", "Checkpoint", "Frames", "show plots",
+                 "viscosity.nu", "Energy.csv", "Time step.csv", "picture", "scene free_fall"});
+  }
+  // The end of the list of parameters, with the plots out of its way.
   Desk desk(folder.path());
   desk.open(small);
-  desk.draw();
-  desk.click("scene");
-  desk.draw();
-  for (const char* widget :
-       {"scene", "play", "step", "reset", "Picture", "Window", "Film", "Checkpoint", "Frames", "show plots", "time.cfl",
-        "viscosity.nu", "Energy.csv", "Time step.csv", "picture", "scene free_fall"}) {
-    const auto box = desk.interface().place(widget);
-    std::printf("place %g %g %g %g %s\n", double{box[0]}, double{box[1]}, double{box[2]}, double{box[3]}, widget);
-  }
+  desk.click("show plots");
+  desk.wheel_at(70, 300, -100);
+  print(desk, {"time.cfl"});
 }
 
 // Not a test: pictures of every group of the panels, to be looked at (CURLEW_KEEP_WINDOWS says where).

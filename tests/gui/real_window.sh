@@ -92,10 +92,12 @@ click Energy.csv
 rows=$(wc -l <"$(wait_for 'out/dam_break_2d/energy_000.csv')")
 [[ $rows -gt 10 ]] || fail "only $rows rows after two seconds of playing"
 
-# What a slider does to a run is in its figures: dt falls with the Courant number, whose slider lies below the plots.
+# What a slider does to a run is in its figures: dt falls with the Courant number, whose slider is at the end of the list.
 click 'show plots'
+xdotool mousemove 70 300 sleep 0.3 click --repeat 100 --delay 10 5 sleep 0.5
 # shellcheck disable=SC2046
 xdotool mousemove $(at time.cfl 0.4) sleep 0.4 mousedown 1 sleep 0.3 mousemove $(at time.cfl 0.02) sleep 0.4 mouseup 1 sleep 0.5
+xdotool mousemove 70 300 sleep 0.3 click --repeat 100 --delay 10 4 sleep 0.5
 click step
 click 'show plots'
 click 'Time step.csv'
