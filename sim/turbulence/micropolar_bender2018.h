@@ -7,8 +7,8 @@
 // The inviscid model has nu = zeta = 0 in both (Eq. 8, 9): it feeds energy in, a shear wave k grows at the rate
 // -nu_t/Theta + sqrt((nu_t/Theta)^2 + nu_t^2 k^2/Theta). In the full model nu is the fluid's own viscosity.
 //
-// Walls reflect spins: a slip wall exerts no torque, at a no-slip wall fluid neither moves nor spins; no-slip bodies are
-// samples that do neither. Of the curl pairs, `conjugate` conserves linear momentum to round-off:
+// Walls reflect spins: a slip wall exerts no torque, at a no-slip wall fluid neither moves nor spins; no-slip bodies
+// are samples that do neither. Of the curl pairs, `conjugate` conserves linear momentum to round-off:
 //   difference:  curl A_i = sum V_j (A_i - A_j) x grad W_ij                                      (the paper's)
 //   symmetric:   curl A_i = -rho_i sum m (A_i / rho_i^2 + A_j / rho_j^2) x grad W_ij
 //   conjugate:   curl omega by its adjoint, -sum m (omega_i / rho_i + omega_j / rho_j) x grad W_ij, curl v by

@@ -15,9 +15,10 @@ constexpr double closest = 0.5;  // pairs nearer than this, in spacings, count a
 // How well a particle has to be surrounded for its vorticity to be believed. Near a free surface the error of the curl
 // changes with every acceleration by pressure, and refinement would take it for a loss or a gain. Dam break, 5k,
 // kinetic energy from 2 to 8 s against none refined, by the paper's sum: all particles -15 %, from 0.7 on -8 %, from
-// 0.9 on -2 %; by Poisson's equation 0.85 +12 %, 0.9 +11 %, 0.95 +6 %, and below 0.8 the water loses at every impact.
-// In a domain filled with fluid there is no surface, only disorder; there to doubt what turns fastest takes whole
-// vortices away: of Taylor vortices 0.993 is left after a turn from 0.5 on, 0.92 from 0.95 on, 0.84 without refinement.
+// 0.9 on -2 %; by Poisson's equation 0.85 +12 %, 0.9 +11 %, 0.95 +6 %, and with 0.7 and less it loses energy at the
+// first impact. In a domain filled with fluid there is no surface, only disorder; there to doubt what turns fastest
+// takes whole vortices away: of Taylor vortices 0.993 is left after a turn from 0.5 on, 0.92 from 0.95 on, 0.84 without
+// refinement.
 float believed_from(const World& world) { return world.parameters().pressure.two_sided ? 0.5f : 0.9f; }
 
 // dzeta = zeta' - curl v~, with the volume of the particle in w.
