@@ -61,6 +61,7 @@ const std::vector<AccuracyMethod>& accuracy_methods() {
 
 std::vector<Scene> accuracy_scenes(const std::string& name, const BenchOptions& options) {
   Scene scene = read_scene(find_scene(name, assets_folder()));
+  scene.parameters.energy.guard = false;  // what the methods do by themselves, unless --set says otherwise
   apply_settings(scene.parameters, options.settings);
   std::vector<Scene> scenes;
   for (const std::string& text : options.cases) {

@@ -77,6 +77,7 @@ Start resume(const RunOptions& options) {
   for (const auto& [name, value] : checkpoint.numbers) {
     if (name == "colour_low") low = value;
     if (name == "colour_high") high = value;
+    if (name == "energy_reserve") w.energy.reserve = value;
   }
   if (low < high) start.colour_range = {low, high};
   return start;

@@ -7,6 +7,7 @@
 namespace curlew {
 
 void save_checkpoint(const std::string& file, const World& world, std::vector<std::pair<std::string, double>> numbers) {
+  if (world.energy.reserve != 0) numbers.emplace_back("energy_reserve", world.energy.reserve);
   CheckpointInfo info{scene_json(world.scene),
                       world.scene.file.string(),
                       version_text(),

@@ -60,7 +60,7 @@ std::vector<std::string> StepRecorder::columns(const Plan& plan) const {
   for (const Pass* pass : plan.step) names.push_back("ms_" + std::string(pass->name));
   if (settings_.full_columns) {
     for (const char* name : {"px", "py", "pz", "lx", "ly", "lz", "enstrophy", "helicity", "divergence_skipped",
-                             "divergence_error_after_models", "wall_contacts"}) {
+                             "divergence_error_after_models", "guard_scale", "wall_contacts"}) {
       names.emplace_back(name);
     }
     for (const EnergyBudget::Term& term : budget_.terms()) names.emplace_back(term.name);
@@ -120,7 +120,7 @@ void StepRecorder::write_row(const World& world, bool last) {
   if (settings_.full_columns) {
     for (double value : {d.momentum.x, d.momentum.y, d.momentum.z, d.angular_momentum.x, d.angular_momentum.y,
                          d.angular_momentum.z, enstrophy(world), helicity(world), r.divergence_skipped,
-                         divergence_after_models_, static_cast<double>(r.wall_contacts)}) {
+                         divergence_after_models_, r.guard_scale, static_cast<double>(r.wall_contacts)}) {
       cells.push_back(text(value));
     }
     for (const EnergyBudget::Term& term : budget_.terms()) cells.push_back(text(term.step));

@@ -46,8 +46,12 @@ void preset_tool_tip(const TurbulencePreset& preset) {
 }  // namespace
 
 std::span<const std::string_view> turbulence_keys() {
-  static constexpr std::string_view keys[] = {"vorticity_refinement.alpha", "vorticity_refinement.reconstruction",
-                                              "micropolar.nu_t", "micropolar.eta", "vorticity_confinement.epsilon"};
+  static constexpr std::string_view keys[] = {"vorticity_refinement.alpha",
+                                              "vorticity_refinement.reconstruction",
+                                              "micropolar.nu_t",
+                                              "micropolar.eta",
+                                              "vorticity_confinement.epsilon",
+                                              "energy.guard"};
   return keys;
 }
 

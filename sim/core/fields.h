@@ -44,6 +44,10 @@ namespace curlew {
   FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \
   FIELD(displacement, Vec3, "m", scratch,                                                                             \
         "Moves that are not velocity: density correction and shifting in filled domains.")                            \
+  FIELD(model_velocity, Vec3, "m/s", scratch,                                                                         \
+        "What vorticity refinement adds to the velocity, where the energy guard may take it back.")                   \
+  FIELD(model_acceleration, Vec3, "m/s^2", scratch,                                                                   \
+        "The turbulence models' share in acceleration, where the energy guard may take it back.")                     \
   FIELD(packed, Vec3, "m", scratch, "Position with the pressure iterate in w: one load per neighbour.")               \
   FIELD(source, float, "kg/m^3", scratch, "Compression that a solve has to remove.")                                  \
   FIELD(iterate, float, "m^5/(kg s^2)", scratch, "Last iterate of a pressure solve, before momentum.")                \

@@ -91,6 +91,17 @@
        "Push along the swirl of each vortex, in m/s^2 for a vorticity of 1/s (Macklin & Mueller 2013, section 5); " \
        "adds energy without a limit; 0 skips the passes.")
 
+#define CURLEW_ENERGY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
+  FLAG(guard, true, "", live,                                                                                          \
+       "Keeps the turbulence models together from adding more energy than energy.share of what the solver has lost. "  \
+       "Off, they do as in their papers and may grow without a limit.")                                                \
+  REAL(share, 0.25, 0.0, 1.0, 0.0, 1.0, "1", "", live,                                                                 \
+       "Share of what the solver has lost that the models may give back under the guard. Splashes lose energy in "     \
+       "nature too; 1 suits flows without a surface.")                                                                 \
+  REAL(memory, 0.25, 0.05, 1.0, 1e-3, 1e6, "s", "tau", live,                                                           \
+       "Time in which the guard forgets energy that was lost and not given back: old losses cannot be spent in still " \
+       "water.")
+
 #define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
   REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live,                                                                \
        "Farthest that a particle may move in a step, in particle "                                                   \
@@ -115,4 +126,5 @@
         "Vorticity refinement")                                                                         \
   GROUP(vorticity_confinement, VorticityConfinementParameters, CURLEW_VORTICITY_CONFINEMENT_PARAMETERS, \
         "Vorticity confinement")                                                                        \
+  GROUP(energy, EnergyParameters, CURLEW_ENERGY_PARAMETERS, "Energy guard")                             \
   GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")

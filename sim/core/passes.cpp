@@ -9,6 +9,7 @@
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
 #include "sim/sph/pressure.h"
+#include "sim/turbulence/energy_guard.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 #include "sim/turbulence/vorticity_confinement_macklin2013.h"
 #include "sim/turbulence/vorticity_refinement_liu2020.h"
@@ -40,6 +41,9 @@ bool solves_poisson(const World& w) {
   using enum VorticityRefinementParameters::reconstruction_t;
   return refines_vorticity(w) && w.parameters().vorticity_refinement.reconstruction == poisson;
 }
+bool guards_energy(const World& w) {
+  return w.parameters().energy.guard && (confines_vorticity(w) || is_micropolar(w) || refines_vorticity(w));
+}
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
 constexpr FieldSet particle_state = FieldSet::kept();
@@ -59,20 +63,20 @@ constexpr Pass passes[] = {
      .changes_velocity = true},
     {.name = "vorticity_refinement",
      .reads = {position, velocity, density, neighbour_number, predicted_vorticity},
-     .writes = {velocity, lost_vorticity, stream_function},
+     .writes = {velocity, lost_vorticity, stream_function, model_velocity},
      .wanted = refines_vorticity,
      .run = refine_vorticity,
      .changes_velocity = true},
     // Forces and the new step:
-    {.name = "gravity", .reads = {}, .writes = {acceleration}, .wanted = always, .run = gravity},
+    {.name = "gravity", .reads = {}, .writes = {acceleration, model_acceleration}, .wanted = always, .run = gravity},
     {.name = "viscosity",
      .reads = {position, velocity, density, acceleration, boundary_friction},
      .writes = {acceleration},
      .wanted = is_viscous,
      .run = viscosity},
     {.name = "vorticity_confinement",
-     .reads = {position, vorticity, acceleration},
-     .writes = {acceleration},
+     .reads = {position, vorticity, acceleration, model_acceleration},
+     .writes = {acceleration, model_acceleration},
      .wanted = confines_vorticity,
      .run = vorticity_confinement},
     {.name = "time_step",
@@ -82,10 +86,16 @@ constexpr Pass passes[] = {
      .run = choose_time_step,
      .essential = true},
     {.name = "micropolar",
-     .reads = {position, velocity, density, acceleration, microrotation, no_slip_gradient},
-     .writes = {acceleration, microrotation, packed},
+     .reads = {position, velocity, density, acceleration, model_acceleration, microrotation, no_slip_gradient},
+     .writes = {acceleration, model_acceleration, microrotation, packed},
      .wanted = is_micropolar,
      .run = couple_spin_and_flow},
+    {.name = "energy_guard",
+     .reads = {velocity, acceleration, model_velocity, model_acceleration, microrotation, packed},
+     .writes = {velocity, acceleration, model_velocity, model_acceleration, microrotation},
+     .wanted = guards_energy,
+     .run = guard_energy,
+     .changes_velocity = true},
     {.name = "apply_forces",
      .reads = {velocity, acceleration},
      .writes = {velocity},
@@ -120,6 +130,12 @@ constexpr Pass passes[] = {
      .writes = {position, velocity},
      .wanted = always,
      .run = advect},
+    {.name = "energy_account",
+     .reads = {velocity, microrotation},
+     .writes = {},
+     .wanted = guards_energy,
+     .run = account_energy,
+     .essential = true},
     {.name = "outflow",
      .reads = particle_state,
      .writes = particle_state,
@@ -164,7 +180,7 @@ constexpr Pass passes[] = {
 // Whether a pass advances the state, rather than find out what depends on positions alone.
 bool advances(const Pass& pass) {
   return pass.changes_velocity || pass.writes.meets(FieldSet{acceleration} | FieldSet::of(FieldKind::model)) ||
-         pass.name == "time_step" || pass.name == "advect";
+         pass.name == "time_step" || pass.name == "advect" || pass.name == "energy_account";
 }
 
 // Fields that a pass touches but that this world has no use for.
@@ -173,6 +189,11 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   if (!is_filled(world)) unused = unused | filled_fields;
   if (!world.has_boundary()) unused = unused | boundary_fields;
   if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
+  if (!guards_energy(world) || !refines_vorticity(world)) unused = unused | FieldSet{model_velocity};
+  if (!guards_energy(world) || !(confines_vorticity(world) || is_micropolar(world))) {
+    unused = unused | FieldSet{model_acceleration};
+  }
+  if (!is_micropolar(world)) unused = unused | FieldSet{microrotation};
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
   const bool curls = confines_vorticity(world) || is_micropolar(world);
@@ -290,6 +311,7 @@ void allocate(World& world, const Plan& plan) {
   });
   if (world.fields.microrotation.empty()) world.backup.microrotation = Array<Vec3>();
   if (world.fields.predicted_vorticity.empty()) world.backup.predicted_vorticity = Array<Vec3>();
+  if (!guards_energy(world)) world.energy = {};
   if (!solves_poisson(world)) {
     world.potential = {};
   } else if (world.potential.empty()) {

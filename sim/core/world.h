@@ -29,6 +29,7 @@ struct StepReport {
   double max_speed = 0;            // m/s
   double max_acceleration = 0;     // m/s^2
   std::int64_t wall_contacts = 0;  // particles held at a wall or a body
+  double guard_scale = 1;          // share of the turbulence models' work that the energy guard let through
 };
 
 // Work done since the start, for tests that guard cost without a clock.
@@ -42,6 +43,12 @@ struct WorkCount {
 struct Backup {
   Array<Vec3> velocity, microrotation, predicted_vorticity;
   Array<float> density_stiffness, divergence_stiffness;
+};
+
+// What the energy guard keeps (sim/turbulence/energy_guard.h), in J.
+struct EnergyAccount {
+  double reserve = 0;                // that the turbulence models may add; state
+  double outer_work = 0, given = 0;  // by viscosity and external torque, and by the models, in the step in hand
 };
 
 struct World {
@@ -63,6 +70,7 @@ struct World {
   std::int64_t step = 0;
   double time = 0;  // s
   double dt = 0;    // s, of the last step; before the first, the step it would like
+  EnergyAccount energy;
   StepReport report;
   WorkCount work;
   Backup backup;

@@ -7,7 +7,7 @@ namespace curlew {
 namespace {
 
 // Passes that do something to the kinetic energy, in the order of the step, and how it is called: what models, gravity
-// and bodies do is work, what the others take is a loss. `spin` is what the micropolar pass gives to the rotation.
+// and bodies do is work, what the others take is a loss. The energy guard changes velocities and forces.
 struct Name {
   std::string_view pass, term;
   bool is_work, is_force;
@@ -19,6 +19,7 @@ constexpr Name names[] = {
     {"viscosity", "loss_viscosity", false, true},
     {"vorticity_confinement", "work_vorticity_confinement", true, true},
     {"micropolar", "work_micropolar", true, true},
+    {"energy_guard", "work_energy_guard", true, true},
     {"xsph", "loss_xsph", false, false},
     {"density_solve", "loss_density_solve", false, false},
     {"shift", "loss_shift", false, false},
@@ -39,7 +40,10 @@ const Name* name_of(const Pass& pass) {
 EnergyBudget::EnergyBudget(const Plan& plan) {
   for (const Pass* pass : plan.step) {
     if (const Name* name = name_of(*pass)) terms_.push_back({name->term, pass, name->is_work});
-    if (pass->writes.has(FieldId::microrotation)) terms_.push_back({rotation, pass, true});
+    if (pass->name == "micropolar") {
+      spin_ = terms_.size();
+      terms_.push_back({rotation, pass, true});
+    }
   }
   forces_.resize(terms_.size());
 }
@@ -76,15 +80,15 @@ void EnergyBudget::after(const Pass& pass, const World& world) {
       force[i] = first ? f.acceleration[i] : f.acceleration[i] - before_[i];
       before_[i] = f.acceleration[i];
     });
-  } else {
+  }
+  if (!name->is_force || pass.changes_velocity) {
     const double now = kinetic_energy(world);
     term.step = term.is_work ? now - kinetic_ : kinetic_ - now;
     kinetic_ = now;
   }
-  if (pass.writes.has(FieldId::microrotation)) {
-    Term& spin = terms_[static_cast<std::size_t>(&term - terms_.data()) + 1];
+  if (pass.writes.has(FieldId::microrotation) && spin_ < terms_.size()) {
     const double now = rotational_energy(world);
-    spin.step = now - rotational_;
+    terms_[spin_].step += now - rotational_;
     rotational_ = now;
   }
 }
@@ -100,7 +104,7 @@ void EnergyBudget::share_out(const World& world) {
                            const Vec3d middle = to_double(f.velocity[i]) - 0.5 * dt * to_double(f.acceleration[i]);
                            return dot(to_double(forces_[k][i]), middle);
                          });
-    term.step = term.is_work ? given : -given;
+    term.step += term.is_work ? given : -given;
   }
   kinetic_ = kinetic_energy(world);
 }

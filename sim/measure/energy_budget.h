@@ -33,6 +33,7 @@ class EnergyBudget {
   Term* term_of(const Pass& pass);
 
   std::vector<Term> terms_;
+  std::size_t spin_ = ~std::size_t{0};  // the term of what the models give to the rotation
   double kinetic_ = 0, rotational_ = 0;
   Array<Vec3> before_;               // acceleration before the force in hand
   std::vector<Array<Vec3>> forces_;  // acceleration by each term, where it is a force

@@ -1,5 +1,6 @@
 #include "sim/sph/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/parallel.h"
@@ -35,6 +36,7 @@ double largest_length(std::size_t n, const Array<Vec3>& field) {
 void gravity(World& world) {
   const Vec3 g = gravity_of(world);
   parallel_for(world.count, [&](std::size_t i) { world.fields.acceleration[i] = g; });
+  std::fill(world.fields.model_acceleration.begin(), world.fields.model_acceleration.end(), Vec3{});
 }
 
 void viscosity(World& world) {

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/core/parallel.h"
 #include "sim/sph/velocity_gradient.h"
+#include "sim/turbulence/energy_guard.h"
 
 namespace curlew {
 namespace {
@@ -94,7 +96,7 @@ void couple(World& world) {
         flow += 1 / density * cross(v, f.no_slip_gradient[i]);
         spin += 1 / density * cross(omega, f.no_slip_gradient[i]);
       }
-      f.acceleration[i] += step.transfer * spin;
+      push(f, i, step.transfer * spin);
       const Vec3 half = 0.5f * flow;
       f.packed[i] = half + step.kept * (omega + pulls.total() - half) + step.gained * step.torque;
     });
@@ -119,7 +121,7 @@ void couple_spin_and_flow(World& world) {
       couple<Curls::conjugate>(world);
       break;
   }
-  parallel_for(world.count, [&](std::size_t i) { f.microrotation[i] = f.packed[i]; });
+  std::swap(f.microrotation, f.packed);  // the spin before stays in packed, for the energy guard
 }
 
 double micropolar_step_limit(const World& world) {

@@ -4,6 +4,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/sph/pair_sums.h"
+#include "sim/turbulence/energy_guard.h"
 
 namespace curlew {
 
@@ -25,7 +26,7 @@ void vorticity_confinement(World& world) {
       });
       const Vec3 eta = rise.total();
       const float size = length(eta);
-      if (size > 0) f.acceleration[i] += epsilon / size * cross(eta, omega);
+      if (size > 0) push(f, i, epsilon / size * cross(eta, omega));
     });
   });
 }

@@ -5,6 +5,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/sph/velocity_gradient.h"
+#include "sim/turbulence/energy_guard.h"
 
 namespace curlew {
 namespace {
@@ -72,13 +73,13 @@ void add_curl_of_stream_function(World& world) {
   const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
-      if (f.neighbour_number[i] < world.least_neighbours()) return;
+      if (f.neighbour_number[i] < world.least_neighbours()) return give(f, i, {});
       const Vec3 psi = f.stream_function[i];
       VectorSum curl;
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
         curl.add_curl(world.kernel.slope(p.r2), psi, gather(f.stream_function.data(), p.j), p);
       });
-      f.velocity[i] += alpha * world.mass / f.density[i] * curl.total();
+      give(f, i, alpha * world.mass / f.density[i] * curl.total());
     });
   });
 }
@@ -90,8 +91,8 @@ void add_curl_of_potential(World& world) {
   world.potential.solve(f.position, f.lost_vorticity);
   const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
   parallel_for(world.count, [&](std::size_t i) {
-    if (f.neighbour_number[i] < world.least_neighbours()) return;
-    f.velocity[i] += alpha * world.potential.curl(f.position[i]);
+    const bool known = f.neighbour_number[i] >= world.least_neighbours();
+    give(f, i, known ? alpha * world.potential.curl(f.position[i]) : Vec3{});
   });
 }
 

@@ -86,8 +86,8 @@ TEST_CASE("the energy bench runs what is missing, and only that") {
   const Outcome other = in(folder, small + "--methods vr1.0 --set time.cfl=0.2");
   CHECK(other.code == 2);
   CHECK(other.err.find("curlew: e/dam_break/settings.txt says that the runs beside it are of dam_break, "
-                       "particle_radius 0.0625, 0.2 s, expected dam_break, particle_radius 0.0625, 0.2 s, "
-                       "time.cfl=0.2; choose another --out\n") != std::string::npos);
+                       "particle_radius 0.0625, 0.2 s, energy.guard=false, expected dam_break, particle_radius "
+                       "0.0625, 0.2 s, energy.guard=false, time.cfl=0.2; choose another --out\n") != std::string::npos);
 
   put_file(csv, "time,kinetic\n0,1\n");
   const Outcome damaged = in(folder, small + "--methods vr1.0");

@@ -18,6 +18,7 @@ Scene still_square() {
   scene.fluid[0].jitter = 0;
   scene.parameters.viscosity.nu = 0;
   scene.parameters.micropolar.eta = 0;
+  scene.parameters.energy.guard = false;
   scene.parameters.time.fixed_step = 5e-4;
   return scene;
 }
