@@ -22,9 +22,10 @@ constexpr int pairs = 5;           // of copies
 constexpr int settling_steps = 3;  // a model that was off a moment ago has nothing to work on in its first step
 constexpr int timed_steps = 10;
 
-// The passes of a model; vorticity counts where only confinement asks for it, as here.
-constexpr const char* model_passes[] = {"vorticity_refinement", "vorticity_prediction", "micropolar",
-                                        "vorticity_confinement", "vorticity"};
+// The passes of a model and of the guard over it; vorticity counts where only confinement asks for it, as here.
+constexpr const char* model_passes[] = {
+    "vorticity_refinement", "vorticity_prediction", "micropolar", "vorticity_confinement", "vorticity",
+    "energy_guard",         "energy_account"};
 
 // What a model may cost, in sweeps.
 double sweep_limit(const Method& m) { return (m.alpha > 0 ? 5 : 0) + (m.nu_t > 0 ? 2 : 0) + (m.epsilon > 0 ? 2 : 0); }

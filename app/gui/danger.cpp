@@ -64,13 +64,16 @@ void tint_dangers(const ParameterRow& row) {
 }
 
 void tell_dangers(const ParameterRow& row) {
+  bool any = false;
   for (const Danger& danger : table) {
     if (danger.key != row.key) continue;
+    any = true;
     const std::string unit = row.unit == "1" ? "" : " " + written_unit(row.unit);
     ImGui::TextColored(colour_of(danger.level, 1), "From %s%s on:", number_text(danger.from).c_str(), unit.c_str());
     ImGui::SameLine();
     ImGui::TextWrapped("%s", danger.why);
   }
+  if (any) ImGui::TextWrapped("So the model by itself; while energy.guard is on, it cannot gain what nothing lost.");
 }
 
 }  // namespace curlew
