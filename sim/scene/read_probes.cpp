@@ -12,7 +12,7 @@ namespace curlew {
 namespace {
 
 constexpr double most_points = 10000;
-constexpr double longest_time = 1e6;  // s
+constexpr double shortest_time = 1e-6, longest_time = 1e6;  // s
 
 // Names become columns: nothing that a table or a column's own index and axis could be taken for.
 std::string read_probe_name(const JsonPlace& place) {
@@ -85,7 +85,7 @@ Probe read_probe(const JsonPlace& place, const Scene& scene) {
   probe.quantity = static_cast<Probe::Quantity>(found[0]);
   read_points(place.at(quantities[found[0]]), scene, probe);
   if (const auto name = place.find("name")) probe.name = read_probe_name(*name);
-  if (const auto every = place.find("every")) probe.every = every->positive(longest_time);
+  if (const auto every = place.find("every")) probe.every = every->number(shortest_time, longest_time);
   return probe;
 }
 

@@ -230,6 +230,8 @@ JsonNode probe_place(const std::string& doc, const char* vector) {
 }
 
 JsonNode probe_node() {
+  JsonNode every = typed("number");
+  every.add("minimum", number(1e-6));
   return with_one_of(
       "A measurement; its cells are empty where no particle is within the kernel's support.",
       {{"pressure", probe_place("Pa; known from the first step on.", "vector")},
@@ -239,7 +241,7 @@ JsonNode probe_node() {
                                     "place")}},
       {{"name",
         typed("string", "Of its columns: letters, digits, spaces, - and _; \"probe 1\" and so on where absent.")},
-       {"every", positive_node("Simulated time between rows, s; each step where absent.")}});
+       {"every", with_doc(std::move(every), "Simulated time between rows, s; each step where absent.")}});
 }
 
 JsonNode constant(JsonNode value) {
