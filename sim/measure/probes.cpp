@@ -10,59 +10,21 @@ namespace {
 
 using Quantity = Probe::Quantity;
 
-// How far the plane is followed out of the cloud of particles, in the cloud's own standard deviations. On a lattice
-// with h = d a flat wall is 3.4 away, an edge 4.8, a corner 5.9; a point over a surface may be any number away.
-constexpr double farthest_deviation = 6.5;
-
-struct Share {
-  std::uint32_t particle;
-  double weight;
-};
-
-// y with M y = v, M given by its columns.
-Vec3d solved(const Vec3d (&m)[3], double determinant, Vec3d v) {
-  return (1 / determinant) * Vec3d{dot(v, cross(m[1], m[2])), dot(m[0], cross(v, m[2])), dot(m[0], cross(m[1], v))};
-}
-
-// What each particle near `point` adds to the fitted value there. With w_j = W(x_0 - x_j) / sum W, r_j = x_j - x_0, the
-// mean c of r_j and their covariance C,
-//   A(x_0) = sum_j w_j (1 - s c . C^-1 (r_j - c)) A_j,
-// where s = 1, or less where sqrt(c . C^-1 c) is more than farthest_deviation; s = 0 is Shepard's mean.
-std::vector<Share> shares_at(const World& world, Vec3d point) {
+// sum W A over sum W, for A given by f(particle); nothing where no particle is within the support.
+template <class F>
+std::optional<Vec3d> mean_at(const World& world, Vec3d point, F&& f) {
   Candidates near;
   Grid::Hints hints;
   near.collect(world.cells, world.grid, world.cells.cell_of(to_float(point)), world.fields.position, hints);
-  std::vector<Share> shares;
-  std::vector<Vec3d> offset;
-  double total = 0;
-  Vec3d centre;
+  Vec3d sum;
+  double weights = 0;
   for (std::size_t k = 0; k < near.size; ++k) {
-    const Vec3d r = Vec3d{near.x[k], near.y[k], near.z[k]} - point;
-    const double weight = world.kernel.value(length(r));
-    if (!(weight > 0)) continue;
-    shares.push_back({near.number[k], weight});
-    offset.push_back(r);
-    total += weight;
-    centre += weight * r;
+    const double weight = world.kernel.value(length(point - Vec3d{near.x[k], near.y[k], near.z[k]}));
+    weights += weight;
+    sum += weight * f(near.number[k]);
   }
-  if (shares.empty()) return shares;
-  centre = (1 / total) * centre;
-  for (Share& share : shares) share.weight /= total;
-
-  Vec3d covariance[3];
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    const Vec3d r = offset[k] - centre;
-    for (int axis = 0; axis < 3; ++axis) covariance[axis] += (shares[k].weight * r[axis]) * r;
-  }
-  const double h2 = world.kernel.h() * world.kernel.h();
-  if (world.scene.dimension == 2) covariance[2] = {0, 0, h2};
-  const double determinant = dot(covariance[0], cross(covariance[1], covariance[2]));
-  if (!(determinant > 1e-9 * h2 * h2 * h2)) return shares;  // all in one plane, or fewer than span the space
-  const Vec3d slope = solved(covariance, determinant, centre);
-  const double deviation = std::sqrt(std::max(0.0, dot(slope, centre)));
-  const double s = deviation > farthest_deviation ? farthest_deviation / deviation : 1;
-  for (std::size_t k = 0; k < shares.size(); ++k) shares[k].weight *= 1 - s * dot(slope, offset[k] - centre);
-  return shares;
+  if (!(weights > 0)) return {};
+  return (1 / weights) * sum;
 }
 
 // Density that fluid has at a point, kg/m^3, where the walls are mirrors, so that a height at a wall is that of the
@@ -137,17 +99,23 @@ std::optional<double> water_height(const World& world, Vec3d place) {
 }
 
 void add_values(const World& world, Quantity quantity, Vec3d point, std::vector<std::optional<double>>& values) {
-  if (quantity == Quantity::water_height) return values.push_back(water_height(world, point));
-  const std::vector<Share> shares = shares_at(world, point);
-  if (quantity == Quantity::pressure) {
-    double pressure = 0;
-    for (const Share& s : shares) pressure += s.weight * double{world.fields.pressure[s.particle]};
-    return values.push_back(shares.empty() || world.step == 0 ? std::nullopt : std::optional(pressure));
-  }
-  Vec3d velocity;
-  for (const Share& s : shares) velocity += s.weight * to_double(world.fields.velocity[s.particle]);
-  for (int axis = 0; axis < world.scene.dimension; ++axis) {
-    values.push_back(shares.empty() ? std::nullopt : std::optional(velocity[axis]));
+  const Fields& fields = world.fields;
+  switch (quantity) {
+    case Quantity::pressure: {
+      const auto pressure = mean_at(world, point, [&](std::size_t j) { return Vec3d{fields.pressure[j], 0, 0}; });
+      values.push_back(pressure && world.step > 0 ? std::optional(pressure->x) : std::nullopt);
+      break;
+    }
+    case Quantity::velocity: {
+      const auto velocity = mean_at(world, point, [&](std::size_t j) { return to_double(fields.velocity[j]); });
+      for (int axis = 0; axis < world.scene.dimension; ++axis) {
+        values.push_back(velocity ? std::optional((*velocity)[axis]) : std::nullopt);
+      }
+      break;
+    }
+    case Quantity::water_height:
+      values.push_back(water_height(world, point));
+      break;
   }
 }
 
