@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/probes.h"
 #include "app/progress.h"
 #include "app/run_json.h"
 #include "app/saving.h"
@@ -17,6 +18,7 @@
 #include "sim/core/error.h"
 #include "sim/io/checkpoint.h"
 #include "sim/io/run_folder.h"
+#include "sim/measure/probes.h"
 #include "sim/measure/state_hash.h"
 #include "sim/scene/json.h"
 #include "sim/scene/reader.h"
@@ -91,10 +93,12 @@ class Run {
         resumed_(start.resumed_step),
         folder_(choose_folder()),
         output_(options, world_.scene, folder_, start.colour_range) {
-    plan_ = make_plan(world_, StepRecorder::demand(options.full_columns) | output_.demand());
+    plan_ =
+        make_plan(world_, StepRecorder::demand(options.full_columns) | output_.demand() | probe_fields(world_.scene));
     prepare(world_, plan_);
     StepRecorder::Settings settings{options.full_columns, options.hash_passes, resumed_};
     recorder_ = std::make_unique<StepRecorder>(folder_, plan_, settings);
+    probes_ = std::make_unique<ProbeRecorder>(folder_, world_, resumed_.has_value());
     summary_.resumed_from = options.resume;
     summary_.changed_on_resume = resumed_ && !options.settings.empty();
     next_frame_ = resumed_ ? frame_of(world_.time) + 1 : 0;
@@ -108,6 +112,7 @@ class Run {
     watch_for_interrupt();
     if (!resumed_) {
       recorder_->write_row(world_, finished());
+      probes_->write_due(world_);
       write_due_frames();
     }
     Progress progress(options_.quiet);
@@ -175,6 +180,7 @@ class Run {
     stopping_ = interrupted();
     const bool last = finished() || stopping_;
     if (!options_.stats_each_frame || frame_due || last) recorder_->write_row(world_, last);
+    probes_->write_due(world_);
     write_due_frames();
     if (world_.time >= next_checkpoint_) {
       save_checkpoint("");
@@ -245,6 +251,7 @@ class Run {
   FrameOutput output_;
   Plan plan_;
   std::unique_ptr<StepRecorder> recorder_;
+  std::unique_ptr<ProbeRecorder> probes_;
   RunSummary summary_;
   std::int64_t next_frame_ = 0;
   double next_checkpoint_ = INFINITY;

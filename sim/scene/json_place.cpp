@@ -109,7 +109,7 @@ const std::string& JsonPlace::text() const {
 Vec3d JsonPlace::vector(int count) const {
   constexpr double largest = 1e6;
   if (node_->type != Type::array || node_->items.size() != static_cast<std::size_t>(count)) {
-    expected("an array of " + std::to_string(count) + " numbers");
+    expected("an array of " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
   }
   Vec3d value;
   for (int axis = 0; axis < count; ++axis) value[axis] = item(static_cast<std::size_t>(axis)).number(-largest, largest);

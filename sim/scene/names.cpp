@@ -23,4 +23,9 @@ std::span<const std::string_view> velocity_field_names() {
   return names;
 }
 
+std::span<const std::string_view> probe_quantity_names() {
+  static constexpr std::string_view names[] = {"pressure", "velocity", "water_height"};
+  return names;
+}
+
 }  // namespace curlew

@@ -19,4 +19,7 @@ std::span<const std::string_view> wall_names(int dimension);
 // InitialVelocity::Field.
 std::span<const std::string_view> velocity_field_names();
 
+// "pressure", "velocity", "water_height": in the order of Probe::Quantity.
+std::span<const std::string_view> probe_quantity_names();
+
 }  // namespace curlew

@@ -11,6 +11,7 @@
 #include "sim/scene/file_text.h"
 #include "sim/scene/json_place.h"
 #include "sim/scene/names.h"
+#include "sim/scene/read_probes.h"
 #include "sim/scene/read_shapes.h"
 #include "sim/scene/shapes.h"
 
@@ -229,12 +230,12 @@ Look read_look(const JsonPlace& place, int dimension) {
 
 // Keys of the format that no version reads yet get a sentence of their own: the scene is right, the program too young.
 void check_keys(const JsonPlace& root) {
-  constexpr std::string_view later[] = {"emitters", "sinks", "keyframes", "probes"};
+  constexpr std::string_view later[] = {"emitters", "sinks", "keyframes"};
   for (const std::string_view key : later) {
     if (const auto place = root.find(key)) place->fail("is not read by this version, expected a scene without it");
   }
   root.allow({"curlew", "name", "about", "dimension", "particle_radius", "gravity", "domain", "fluid", "bodies",
-              "parameters", "camera", "look"});
+              "probes", "parameters", "camera", "look"});
   const JsonPlace version = root.at("curlew");
   if (version.node().type != JsonNode::Type::number || version.node().number != 1)
     version.expected("1, the format's version");
@@ -264,6 +265,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
   scene.domain = read_domain(root.at("domain"), scene.dimension);
   scene.fluid = read_fluid(root.at("fluid"), scene.dimension);
   if (const auto bodies = root.find("bodies")) scene.bodies = read_bodies(*bodies, scene);
+  if (const auto probes = root.find("probes")) scene.probes = read_probes(*probes, scene);
   if (const auto parameters = root.find("parameters")) scene.parameters = read_parameters(*parameters);
   if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
   if (const auto look = root.find("look")) scene.look = read_look(*look, scene.dimension);

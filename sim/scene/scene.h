@@ -93,6 +93,18 @@ struct Body {
   WallKind kind = WallKind::slip;  // slip or no_slip
 };
 
+// What is measured at a point or along a line, into probes.csv.
+struct Probe {
+  enum class Quantity { pressure, velocity, water_height };
+  std::string name;
+  Quantity quantity = Quantity::pressure;
+  Vec3d from, to;    // ends of the line, both the same for a point; water_height takes all along the vertical axis
+  int points = 1;    // at even distances from end to end
+  double every = 0;  // s of simulated time between rows; 0: each step
+
+  Vec3d at(int point) const { return points > 1 ? from + (point / (points - 1.0)) * (to - from) : from; }
+};
+
 struct Camera {
   std::optional<Vec3d> position, target;  // fitted to the domain where absent
   double field_of_view = 35;              // vertical, degrees
@@ -123,11 +135,20 @@ struct Scene {
   Domain domain;
   std::vector<Fluid> fluid;
   std::vector<Body> bodies;
+  std::vector<Probe> probes;
   Parameters parameters;
   Camera camera;
   Look look;
 
   double spacing() const { return 2 * particle_radius; }
+  // The axis along which gravity pulls most; y where it pulls nowhere.
+  int vertical_axis() const {
+    int axis = 1;
+    for (const int other : {0, 2}) {
+      if (gravity[other] * gravity[other] > gravity[axis] * gravity[axis]) axis = other;
+    }
+    return axis;
+  }
 };
 
 }  // namespace curlew

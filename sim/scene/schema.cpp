@@ -72,19 +72,24 @@ JsonNode any_of(std::vector<JsonNode> choices, const char* keyword = "anyOf") {
 
 JsonNode vector3(const std::string& doc) { return array_of(typed("number"), 3, 3, doc); }
 
-// The six shapes as properties; exactly one of them must stand in the object.
-JsonNode with_shapes(const std::string& doc, std::vector<Property> others) {
-  static constexpr const char* shapes[] = {"box", "sphere", "cylinder", "plane", "mesh", "heightfield"};
-  std::vector<JsonNode> choices;
-  for (const char* shape : shapes) {
-    others.push_back({shape, reference(shape)});
+// An object with exactly one of some keys, and others.
+JsonNode with_one_of(const std::string& doc, std::vector<Property> keys, std::vector<Property> others) {
+  JsonNode list = JsonNode::array();
+  for (Property& key : keys) {
     JsonNode required = JsonNode::array(), choice = JsonNode::object();
-    required.add(text(shape));
-    choices.push_back(std::move(choice.add("required", std::move(required))));
+    required.add(text(key.name));
+    list.add(std::move(choice.add("required", std::move(required))));
+    others.push_back(std::move(key));
   }
-  JsonNode node = object_of(doc, std::move(others)), list = JsonNode::array();
-  for (JsonNode& choice : choices) list.add(std::move(choice));
-  return std::move(node.add("oneOf", std::move(list)));
+  return std::move(object_of(doc, std::move(others)).add("oneOf", std::move(list)));
+}
+
+JsonNode with_shapes(const std::string& doc, std::vector<Property> others) {
+  std::vector<Property> shapes;
+  for (const char* shape : {"box", "sphere", "cylinder", "plane", "mesh", "heightfield"}) {
+    shapes.push_back({shape, reference(shape)});
+  }
+  return with_one_of(doc, std::move(shapes), std::move(others));
 }
 
 JsonNode shape_definitions(JsonNode definitions) {
@@ -117,6 +122,7 @@ JsonNode shape_definitions(JsonNode definitions) {
 JsonNode definitions_node() {
   JsonNode definitions = JsonNode::object();
   definitions.add("vector", array_of(typed("number"), 2, 3, "As many numbers as the scene has dimensions."));
+  definitions.add("place", array_of(typed("number"), 1, 2, "One number fewer than the scene has dimensions."));
   definitions.add("wall",
                   any_of({one_of_names(wall_kind_names()),
                           object_of("A wall that may drag the fluid along.",
@@ -213,6 +219,31 @@ JsonNode look_node() {
        {"show_floor", typed("boolean")}});
 }
 
+JsonNode probe_place(const std::string& doc, const char* vector) {
+  JsonNode points = typed("integer");
+  points.add("minimum", number(2)).add("maximum", number(10000));
+  JsonNode node = any_of({object_of("A point.", {{"at", reference(vector), true}}),
+                          object_of("A line of points at even distances.", {{"from", reference(vector), true},
+                                                                            {"to", reference(vector), true},
+                                                                            {"points", std::move(points), true}})});
+  return with_doc(std::move(node), doc);
+}
+
+JsonNode probe_node() {
+  JsonNode every = typed("number");
+  every.add("minimum", number(1e-6));
+  return with_one_of(
+      "A measurement; its cells are empty where no particle is within the kernel's support.",
+      {{"pressure", probe_place("Pa; known from the first step on.", "vector")},
+       {"velocity", probe_place("m/s.", "vector")},
+       {"water_height", probe_place("Of the highest water over the place, in metres from the domain's lowest point; "
+                                    "places are given without the vertical axis.",
+                                    "place")}},
+      {{"name",
+        typed("string", "Of its columns: letters, digits, spaces, - and _; \"probe 1\" and so on where absent.")},
+       {"every", with_doc(std::move(every), "Simulated time between rows, s; each step where absent.")}});
+}
+
 JsonNode constant(JsonNode value) {
   JsonNode node = JsonNode::object();
   return std::move(node.add("const", std::move(value)));
@@ -251,6 +282,7 @@ std::string scene_schema() {
        {"bodies",
         array_of(with_shapes("A solid at rest.", {{"name", typed("string")}, {"wall", one_of_names(body_walls)}}), 0, 0,
                  "Solids in the way of the fluid.")},
+       {"probes", array_of(probe_node(), 0, 0, "What is measured into probes.csv by `curlew run`.")},
        {"parameters", parameters_node()},
        {"camera", camera_node()},
        {"look", look_node()}});

@@ -120,6 +120,34 @@ JsonNode bodies_node(const Scene& scene) {
   return node;
 }
 
+// Water heights are written without the vertical axis, along which they are measured.
+JsonNode point_node(const Probe& probe, Vec3d point, const Scene& scene) {
+  const int left_out = probe.quantity == Probe::Quantity::water_height ? scene.vertical_axis() : -1;
+  JsonNode node = JsonNode::array();
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    if (axis != left_out) node.add(JsonNode::of(point[axis]));
+  }
+  return node;
+}
+
+JsonNode probes_node(const Scene& scene) {
+  JsonNode node = JsonNode::array();
+  for (const Probe& probe : scene.probes) {
+    JsonNode item = JsonNode::object(), place = JsonNode::object();
+    if (probe.points > 1) {
+      place.add("from", point_node(probe, probe.from, scene)).add("to", point_node(probe, probe.to, scene));
+      place.add("points", JsonNode::of(static_cast<double>(probe.points)));
+    } else {
+      place.add("at", point_node(probe, probe.from, scene));
+    }
+    item.add("name", JsonNode::of(probe.name));
+    item.add(std::string(probe_quantity_names()[static_cast<std::size_t>(probe.quantity)]), std::move(place));
+    if (probe.every > 0) item.add("every", JsonNode::of(probe.every));
+    node.add(std::move(item));
+  }
+  return node;
+}
+
 JsonNode parameters_node(const Parameters& parameters) {
   using Type = ParameterRow::Type;
   JsonNode node = JsonNode::object();
@@ -161,6 +189,7 @@ std::string scene_json(const Scene& scene) {
   node.add("particle_radius", JsonNode::of(scene.particle_radius));
   node.add("gravity", vector_node(scene.gravity, scene.dimension));
   node.add("domain", domain_node(scene)).add("fluid", fluid_node(scene)).add("bodies", bodies_node(scene));
+  if (!scene.probes.empty()) node.add("probes", probes_node(scene));
   node.add("parameters", parameters_node(scene.parameters));
   return json_text(node.add("camera", camera_node(scene.camera)).add("look", look_node(scene.look)));
 }

@@ -1,6 +1,7 @@
 // Scenes as read: values, defaults, comments, and the round trip through scene_json.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <tuple>
 
 #include "sim/core/error.h"
 #include "sim/scene/reader.h"
@@ -28,6 +29,12 @@ const std::string full_scene = R"json({
     {"name": "rock", "mesh": {"file": "../meshes/rock.obj", "scale": 0.2, "translation": [1.5, 0, 1], "rotation": [0, 30, 0]}, "wall": "no-slip"},
     {"plane": {"point": [0, -0.5, 0], "normal": [0.1, 1, 0]}},
     {"name": "hill", "heightfield": {"formula": "0.1*x", "min": [2, -1, 0], "max": [4, 0, 2]}}
+  ],
+  "probes": [
+    {"name": "p 1", "pressure": {"at": [0, -1, 2]}},
+    {"velocity": {"from": [0, 0, 0], "to": [4, 0, 1], "points": 41}, "every": 0.01},
+    {"name": "gauge_2", "water_height": {"at": [3, 0.5]}},
+    {"water_height": {"from": [0, 0.5], "to": [4, 0.5], "points": 5}}
   ],
   "parameters": {"viscosity.nu": 0.01, "pressure.two_sided": true, "viscosity.form": "vector", "pressure.max_iterations": 50},
   "camera": {"position": [1, 2, 3], "target": [0, 0, 0], "field_of_view": 50},
@@ -72,6 +79,19 @@ TEST_CASE("every key arrives in the scene", "[scene]") {
   CHECK(std::get<Mesh>(scene.bodies[0].shape).mesh->triangles.size() == 320);
   CHECK(scene.bodies[1].name == "body 2");
   CHECK(std::get<Heightfield>(scene.bodies[2].shape).heights.size() == 257 * 257);
+  REQUIRE(scene.probes.size() == 4);
+  CHECK(scene.probes[0].name == "p 1");
+  CHECK(scene.probes[0].quantity == Probe::Quantity::pressure);
+  CHECK(scene.probes[0].at(0) == Vec3d{0, -1, 2});
+  CHECK(scene.probes[0].every == 0);
+  CHECK(scene.probes[1].name == "probe 2");
+  CHECK(scene.probes[1].points == 41);
+  CHECK(scene.probes[1].every == 0.01);
+  CHECK(scene.probes[1].at(10) == Vec3d{1, 0, 0.25});
+  CHECK(scene.probes[1].at(40) == Vec3d{4, 0, 1});
+  CHECK(scene.probes[2].quantity == Probe::Quantity::water_height);
+  CHECK(scene.probes[2].at(0) == Vec3d{3, 0, 0.5});
+  CHECK(scene.probes[3].to == Vec3d{4, 0, 0.5});
   CHECK(scene.parameters.viscosity.nu == 0.01);
   CHECK(scene.parameters.pressure.two_sided);
   CHECK(scene.parameters.viscosity.form == ViscosityParameters::form_t::vector);
@@ -99,16 +119,21 @@ TEST_CASE("what is left out has its default", "[scene]") {
   CHECK_FALSE(scene.camera.position.has_value());
   CHECK_FALSE(scene.look.range.has_value());
   CHECK_FALSE(scene.look.cut.has_value());
+  CHECK(scene.probes.empty());
 }
 
 TEST_CASE("a scene in 2D has two numbers to a vector", "[scene]") {
   const Scene scene = parse_scene(
       R"json({"curlew": 1, "dimension": 2, "domain": {"min": [0, 0], "max": [1, 1], "walls": {"y+": "open"}},
-      "gravity": [0, -1], "fluid": [{"box": {"min": [0, 0], "max": [1, 1]},
+      "gravity": [0, -1], "probes": [{"water_height": {"at": [0.5]}}, {"velocity": {"at": [0.5, 1]}}],
+      "fluid": [{"box": {"min": [0, 0], "max": [1, 1]},
       "velocity": {"field": "rotation", "centre": [0.5, 0.5], "rate": 3}}]})json",
       "flat.json");
   CHECK(scene.fluid[0].velocity.rate == Vec3d{0, 0, 3});
   CHECK(scene.domain.max == Vec3d{1, 1, 0});
+  REQUIRE(scene.probes.size() == 2);
+  CHECK(scene.probes[0].from == Vec3d{0.5, 0, 0});
+  CHECK(scene.probes[1].from == Vec3d{0.5, 1, 0});
   const std::string text = scene_json(scene);
   CHECK(scene_json(parse_scene(text, "flat.json")) == text);
 }
@@ -122,6 +147,12 @@ TEST_CASE("the written scene reads back the same from any folder", "[scene]") {
   const auto& mesh = *std::get<Mesh>(scene.bodies[0].shape).mesh;
   const auto& mesh_again = *std::get<Mesh>(again.bodies[0].shape).mesh;
   CHECK(mesh.vertices == mesh_again.vertices);
+  REQUIRE(again.probes.size() == scene.probes.size());
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const Probe &was = scene.probes[k], &is = again.probes[k];
+    CHECK(std::tie(is.name, is.quantity, is.from, is.to, is.points, is.every) ==
+          std::tie(was.name, was.quantity, was.from, was.to, was.points, was.every));
+  }
   const auto before = sample_fluid(scene), after = sample_fluid(again);
   CHECK(before.position == after.position);
   CHECK(before.velocity == after.velocity);
