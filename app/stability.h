@@ -59,21 +59,21 @@ std::optional<Verdict> parse_verdict(const std::string& name);
 // Lively has more than this many times the kinetic energy of plain DFSPH in the end; energy above the start counts
 // from this share of it on, in per cent.
 inline constexpr double lively_over_plain = 2, noted_gain_percent = 0.5;
-inline constexpr double last_part = 0.5;      // s, over which that kinetic energy is a mean
+inline constexpr double last_part = 0.5;       // s, over which that kinetic energy is a mean
 inline constexpr double most_work_ratio = 10;  // more sweeps over the neighbours than so many times plain DFSPH's
 
 // What one run found; where it did not come to its end, `kinetic` is not a number.
 struct StabilityRun {
-  double end = 0;            // s, reached
-  std::string pass;          // in which it diverged; else empty
-  bool too_slow = false;     // took too many sweeps
-  double kinetic = 0;        // J, mean of the last part
-  double gain_percent = 0;   // largest rise of kinetic + potential + rotational energy above its start
+  double end = 0;           // s, reached
+  std::string pass;         // in which it diverged; else empty
+  bool too_slow = false;    // took too many sweeps
+  double kinetic = 0;       // J, mean of the last part
+  double gain_percent = 0;  // largest rise of kinetic + potential + rotational energy above its start
   std::int64_t steps = 0;
   std::uint64_t sweeps = 0;  // over the neighbours
   int most_iterations = 0;   // of the density solve in a step
   std::int64_t limit_hits = 0;
-  double wall = 0;           // s
+  double wall = 0;  // s
 };
 
 // `plain_kinetic` is that of plain DFSPH at the same resolution.

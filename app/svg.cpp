@@ -40,9 +40,9 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
 
 double text_width(const std::string& text, double size) {
   constexpr double letter = 0.56;
-  return letter * size *
-         static_cast<double>(std::count_if(
-             text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return letter * size * static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) {
+           return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+         }));
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width) {
