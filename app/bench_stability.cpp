@@ -216,7 +216,7 @@ void report(const StabilityPlan& plan, const StabilityRuns& runs, const std::str
     about += std::string(&scene == &plan.scenes.front() ? ", " : " and ") + scene.label + " with " +
              std::to_string(scene.particles.at(1)) + " particles";
   }
-  about += ", " + number_text(end) + " s, inviscid";
+  about += ", " + number_text(end) + " s";
   const std::string summary = stability_summary(plan, runs, about + " (`" + command + "`)");
   AtomicFile out(folder + "/summary.md");
   out.write(summary);

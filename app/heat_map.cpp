@@ -11,7 +11,7 @@ namespace {
 using namespace svg;
 
 // Layout, in pixels.
-constexpr double cell_width = 70, cell_height = 42, edge = 28, head = 64, panel_head = 34, foot = 62, gap = 44,
+constexpr double cell_width = 76, cell_height = 42, edge = 28, head = 64, panel_head = 34, foot = 62, gap = 44,
                  word_size = 14, note_line = 22;
 constexpr const char* limit_colour = "#b2182b";
 
@@ -118,9 +118,9 @@ std::string svg_text(const HeatMap& map) {
     }
     height += panel_head + row_of[row].height + foot;
   }
-  // Notes are wider letters than the small print that `wrapped` counts.
+  constexpr double width_share = 0.95;  // notes have wider letters than the small print that `wrapped` counts
   for (const std::string& note : map.notes) {
-    for (const std::string& line : wrapped(note, 0.82 * (width - 2 * edge))) {
+    for (const std::string& line : wrapped(note, width_share * (width - 2 * edge))) {
       height += note_line;
       body += text_at(edge, height - 4, line, "start", word_size);
     }

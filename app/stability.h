@@ -60,7 +60,7 @@ std::optional<Verdict> parse_verdict(const std::string& name);
 // from this share of it on, in per cent.
 inline constexpr double lively_over_plain = 2, noted_gain_percent = 0.5;
 inline constexpr double last_part = 0.5;       // s, over which that kinetic energy is a mean
-inline constexpr double most_work_ratio = 10;  // more sweeps over the neighbours than so many times plain DFSPH's
+inline constexpr double most_work_ratio = 20;  // more sweeps over the neighbours than so many times plain DFSPH's
 
 // What one run found; where it did not come to its end, `kinetic` is not a number.
 struct StabilityRun {
