@@ -174,7 +174,7 @@ TEST_CASE("the stability bench leaves its cells, a summary and maps, and runs on
 
 TEST_CASE("a cell that diverges says when and where") {
   const TemporaryFolder folder;
-  const Outcome outcome = in(folder, small + "step --set time.max_displacement=0.12");
+  const Outcome outcome = in(folder, small + "step --set time.max_displacement=0.2");
   REQUIRE(outcome.code == 0);
   const Table table = read_table(folder / "s/cells.csv");
   CHECK(table.cell(0, "verdict") == "calm");
@@ -185,6 +185,14 @@ TEST_CASE("a cell that diverges says when and where") {
   CHECK(table.number(last, "end") < 0.1);
   CHECK(table.cell(last, "kinetic_ratio").empty());
   CHECK(outcome.out.find(" s, " + table.cell(last, "pass") + ")") != std::string::npos);
+}
+
+TEST_CASE("where plain DFSPH diverges the stability bench has nothing to compare with") {
+  const TemporaryFolder folder;
+  const Outcome outcome = in(folder, small + "step --set time.max_displacement=0.12");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("curlew: plain DFSPH diverged in dam_break_2d at ") != std::string::npos);
+  CHECK(outcome.err.find("nothing to be compared with; leave out what --set changes\n") != std::string::npos);
 }
 
 TEST_CASE("the stability bench refuses what it cannot do in one sentence") {
