@@ -11,7 +11,7 @@ namespace {
 using namespace svg;
 
 // Layout, in pixels.
-constexpr double cell_width = 76, cell_height = 42, edge = 28, head = 64, panel_head = 34, foot = 62, gap = 44,
+constexpr double cell_width = 88, cell_height = 42, edge = 28, head = 64, panel_head = 34, foot = 62, gap = 44,
                  word_size = 14, note_line = 22;
 constexpr const char* limit_colour = "#b2182b";
 
