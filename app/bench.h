@@ -24,6 +24,7 @@ int bench_speed(const BenchOptions& options);
 int bench_memory(const BenchOptions& options);
 int bench_energy(const BenchOptions& options);
 int bench_overhead(const BenchOptions& options);
+int bench_stability(const BenchOptions& options);
 
 // A bundled scene with --set and about this number of particles.
 Scene bench_scene(const std::string& name, double nu, const std::string& particles, const BenchOptions& options);

@@ -164,9 +164,11 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   }
   const auto name = [&o, names](const std::string& t) { o.name = parse_word("the benchmark", t, names); };
   app.add_option_function<std::string>("NAME", name, help)->required();
-  app.add_option("--cases", o.cases,
-                 "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; accuracy: as its scenes have)");
-  app.add_option("CASE", o.names, "accuracy: its cases (all)");
+  app.add_option(
+      "--cases", o.cases,
+      "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; stability too: 2k in 2D, 5k in 3D; "
+      "accuracy: as its scenes have)");
+  app.add_option("CASE", o.names, "accuracy: its cases (all); stability: its lines and planes (all)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
       "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
@@ -176,15 +178,18 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   app.add_option_function<std::string>(
       "--at-least", [&](const std::string& t) { o.at_least = parse_positive("--at-least", t, ""); },
       "speed: exit 1 where a case makes fewer million particle-steps a second");
-  app.add_option("--scenes", o.scenes, "energy: dam_break, hemisphere (both)");
+  app.add_option("--scenes", o.scenes,
+                 "energy: dam_break, hemisphere (both); stability: dam_break_2d, dam_break (both)");
   app.add_option("--methods", o.methods,
                  "energy, overhead: dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or sums such as "
                  "vr1.0+mp0.05 (those of the paper)");
   app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05)");
   app.add_option_function<std::string>(
       "--time", [&](const std::string& t) { o.time = parse_positive("--time", t, "seconds"); },
-      "energy: simulated seconds (12, hemisphere 20); overhead: seconds before it measures (0.4)");
-  add_path(app, "--out", o.out, "energy: folder (out/energy); runs that are complete in it are not run again");
+      "energy, stability: simulated seconds (12, hemisphere 20, stability 4); overhead: seconds before it measures "
+      "(0.4)");
+  add_path(app, "--out", o.out,
+           "energy, stability: folder (out/energy, out/stability); runs that are complete in it are not run again");
 }
 
 // An option that the benchmark would not read.
@@ -264,7 +269,7 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run_app, run);
   CLI::App* check = app.add_subcommand("check", "Read a scene and say what it holds");
   add_common_options(*check, run);
-  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, energy, overhead, accuracy");
+  CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, energy, overhead, stability, accuracy");
   add_bench_options(*bench_app, bench);
   CLI::App* scenes = app.add_subcommand("scenes", "List the bundled scenes");
   CLI::App* params = app.add_subcommand("params", "List all parameters");

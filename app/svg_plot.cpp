@@ -3,59 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
+#include "app/svg.h"
 #include "sim/io/atomic_file.h"
 
 namespace curlew {
 namespace {
 
+using namespace svg;
+
 // Layout, in pixels. Readable where a page shows the picture at two thirds of its size.
 constexpr double panel_width = 470, panel_height = 360, left = 88, top = 88, gap = 100, bottom = 92;
-constexpr double legend_line = 27, legend_sample = 44, text_size = 16, small_size = 12, small_line = 16,
-                 letter = 0.56 * text_size;
-constexpr const char* ink = "#333333";
+constexpr double legend_line = 27, legend_sample = 44;
 constexpr const char* grid_colour = "#e3e3e3";
-
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return out;
-}
-
-std::string text_at(double x, double y, const std::string& text, const char* anchor, double size = text_size,
-                    const char* more = "") {
-  return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"%g\"%s>", x, y, anchor, size, more) +
-         escaped(text) + "</text>\n";
-}
-
-// About; letters of two and three bytes count once.
-double text_width(const std::string& text) {
-  return letter * static_cast<double>(std::count_if(
-                      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
 
 // An axis that knows its range: on a logarithmic one, in powers of ten.
 struct Scale {
@@ -260,22 +220,6 @@ std::string legend_text(const std::vector<const PlotSeries*>& entries, double be
   return out;
 }
 
-// The small print in lines that fit, broken at blanks.
-std::vector<std::string> wrapped(const std::string& text, double width) {
-  const auto most = static_cast<std::size_t>(width / (0.61 * small_size));
-  std::vector<std::string> lines;
-  std::string rest = text;
-  while (rest.size() > most && rest.find(' ') != std::string::npos) {
-    std::size_t cut = rest.rfind(' ', most);
-    if (cut == std::string::npos || cut == 0) cut = rest.find(' ', 1);
-    if (cut == std::string::npos) break;
-    lines.push_back(rest.substr(0, cut));
-    rest = rest.substr(cut + 1);
-  }
-  lines.push_back(rest);
-  return lines;
-}
-
 }  // namespace
 
 LineStyle line_style(std::size_t k) {
@@ -299,22 +243,13 @@ std::string svg_text(const Plot& plot) {
   const std::vector<std::string> small_print = wrapped(plot.command, width - 2 * left);
   const double height =
       std::max(top + panel_height, legend_end) + bottom + small_line * static_cast<double>(small_print.size() - 1);
-  std::string out = format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-      "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" fill=\"%s\">\n"
-      "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-      width, height, width, height, ink);
+  std::string out = begin_picture(width, height);
   out += text_at(left, 36, plot.title, "start", 20, " font-weight=\"bold\"");
   for (std::size_t k = 0; k < plot.panels.size(); ++k) {
     out += panel_text(plot.panels[k], left + static_cast<double>(k) * (panel_width + gap));
   }
   out += legend_text(entries, end_of_panels + 24);
-  double y = height - 14 - small_line * static_cast<double>(small_print.size() - 1);
-  for (const std::string& line : small_print) {
-    out += text_at(left, y, line, "start", small_size, " fill=\"#777777\" font-family=\"monospace\"");
-    y += small_line;
-  }
-  return out + "</svg>\n";
+  return out + small_print_text(small_print, left, height) + "</svg>\n";
 }
 
 void write_svg(const std::string& file, const Plot& plot) {

@@ -50,7 +50,7 @@ const std::vector<Row> commands = {
     {"params --json --schema", "curlew params takes one of --json, --markdown and --schema"},
     {"params --jsn", R"(curlew params has no option "--jsn"; did you mean "--json"?)"},
     {"bench", "NAME is required; see `curlew bench --help`"},
-    {"bench sped", R"(the benchmark is "sped", expected speed, memory, energy, overhead or accuracy)"},
+    {"bench sped", R"(the benchmark is "sped", expected speed, memory, energy, overhead, stability or accuracy)"},
     {"bench accuracy gresho",
      R"(there is no accuracy case "gresho", expected one of gresho_chan, lamb_oseen, taylor_vortex, spinning_drop)"},
     {"bench speed gresho_chan", "curlew bench speed takes no CASE; see `curlew bench --help`"},
