@@ -34,7 +34,9 @@ std::span<const BenchRow> bench_table() {
        {"CASE", "--cases", "--scenes", "--time", "--out"},
        bench_stability},
       {"accuracy",
-       "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop",
+       "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop with every turbulence "
+       "method; "
+       "taylor_green, couette, poiseuille, hydrostatic as error against run time",
        {"CASE", "--cases", "--share", "--out"},
        accuracy_bench},
   };

@@ -3,12 +3,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 #include "app/accuracy.h"
 #include "app/assets.h"
 #include "app/methods.h"
 #include "app/numbers.h"
 #include "app/setup.h"
+#include "app/work_precision.h"
 #include "sim/core/error.h"
 #include "sim/core/nearest_name.h"
 #include "sim/io/csv.h"
@@ -21,17 +23,24 @@ namespace {
 
 struct AccuracyCase {
   std::string name;
-  void (*run)(const BenchOptions&);
+  std::function<void(const BenchOptions&)> run;
 };
 
-const AccuracyCase cases[] = {
-    {"gresho_chan", gresho_chan_accuracy},
-    {"lamb_oseen", lamb_oseen_accuracy},
-    {"taylor_vortex", taylor_vortex_accuracy},
-    {"spinning_drop", spinning_drop_accuracy},
-};
+// Vortices and a drop with every turbulence method; then error against run time.
+std::vector<AccuracyCase> all_cases() {
+  std::vector<AccuracyCase> cases = {
+      {"gresho_chan", gresho_chan_accuracy},
+      {"lamb_oseen", lamb_oseen_accuracy},
+      {"taylor_vortex", taylor_vortex_accuracy},
+      {"spinning_drop", spinning_drop_accuracy},
+  };
+  for (const PrecisionCase& c : precision_cases()) {
+    cases.push_back({c.name, [&c](const BenchOptions& options) { run_precision_case(c, options); }});
+  }
+  return cases;
+}
 
-const AccuracyCase& case_of_name(const std::string& name) {
+const AccuracyCase& case_of_name(const std::vector<AccuracyCase>& cases, const std::string& name) {
   std::string known;
   for (const AccuracyCase& c : cases) {
     if (c.name == name) return c;
@@ -102,8 +111,9 @@ std::string formatted(const char* format, double value) {
 int accuracy_bench(const BenchOptions& options) {
   check_free(options.settings, {"viscosity.nu", "vorticity_refinement.reconstruction", "micropolar.eta",
                                 "micropolar.curls", "micropolar.model"});
+  const std::vector<AccuracyCase> cases = all_cases();
   std::vector<const AccuracyCase*> chosen;  // all names are looked up before the first case is run
-  for (const std::string& name : options.names) chosen.push_back(&case_of_name(name));
+  for (const std::string& name : options.names) chosen.push_back(&case_of_name(cases, name));
   if (chosen.empty()) {
     for (const AccuracyCase& c : cases) chosen.push_back(&c);
   }

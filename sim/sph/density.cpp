@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sim/core/parallel.h"
-#include "sim/sph/pair_sums.h"
+#include "sim/sph/velocity_gradient.h"
 
 namespace curlew {
 
@@ -58,14 +58,18 @@ void gradient_correction(World& world) {
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
       f8 xx{}, yy{}, zz{}, yz{}, zx{}, xy{};
-      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-        const f8 slope = world.kernel.slope(p.r2);
+      const auto add = [&](f8 slope, const Pairs& p) {
         xx -= slope * p.x * p.x;
         yy -= slope * p.y * p.y;
         zz -= slope * p.z * p.z;
         yz -= slope * p.y * p.z;
         zx -= slope * p.z * p.x;
         xy -= slope * p.x * p.y;
+      };
+      for_pairs(world.neighbours, f.position.data(), i, images,
+                [&](const Pairs& p) { add(world.kernel.slope(p.r2), p); });
+      for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection&) {
+        add(weight * world.kernel.slope(p.r2), p);
       });
       const float volume = world.mass / f.density[i];
       const SymmetricMatrix b = gradient_correction(volume * Vec3{sum(xx), sum(yy), sum(zz)},

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
-#include "sim/sph/pair_sums.h"
+#include "sim/sph/velocity_gradient.h"
 
 namespace curlew {
 namespace {
@@ -63,18 +63,20 @@ float density_rate(const World& world, const Array<Vec3>& v, std::size_t i, cons
 // The same with the kernel-gradient correction B: sum m (v_i - v_j) . B grad W_ij, exact for a linear velocity on any
 // arrangement.
 template <class Images>
-float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images,
-                             bool boundary) {
+float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images) {
   const Vec3 own = v[i], b = world.fields.correction_diagonal[i], c = world.fields.correction_mixed[i];
   f8 rate{};
-  for_pairs(world.neighbours, world.fields.position.data(), i, images, [&](const Pairs& p) {
-    const Vec8 other = gather(v.data(), p.j);
+  const auto add = [&](f8 slope, const Vec8& other, const Pairs& p) {
     const f8 x = b.x * p.x + c.z * p.y + c.y * p.z, y = c.z * p.x + b.y * p.y + c.x * p.z,
              z = c.y * p.x + c.x * p.y + b.z * p.z;
-    rate += world.kernel.slope(p.r2) * ((own.x - other.x) * x + (own.y - other.y) * y + (own.z - other.z) * z);
+    rate += slope * ((own.x - other.x) * x + (own.y - other.y) * y + (own.z - other.z) * z);
+  };
+  for_pairs(world.neighbours, world.fields.position.data(), i, images,
+            [&](const Pairs& p) { add(world.kernel.slope(p.r2), gather(v.data(), p.j), p); });
+  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+    add(weight * world.kernel.slope(p.r2), reflect(gather(v.data(), p.j), r.sign, {}), p);
   });
-  const float fluid = world.mass * sum(rate);
-  return boundary ? fluid + dot(own, world.fields.boundary_gradient[i]) : fluid;
+  return world.mass * sum(rate);
 }
 
 struct Progress {
@@ -137,7 +139,7 @@ Progress relax(World& world, Array<float>& stiffness, float relaxation, bool cor
         const float k = f.packed[i].w, source = f.source[i];
         stiffness[i] = k;
         if (source == no_part) continue;
-        const float residual = source + (corrected ? corrected_density_rate(world, f.acceleration, i, images, boundary)
+        const float residual = source + (corrected ? corrected_density_rate(world, f.acceleration, i, images)
                                                    : density_rate(world, f.acceleration, i, images, boundary));
         const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
         const float moved = std::max(lowest, k + relaxation * residual / f.diagonal[i]);
@@ -270,7 +272,7 @@ void divergence_solve(World& world) {
     skipped = particle_sum(world.count, [&](std::size_t i) {
       const bool spray = f.neighbour_number[i] < world.least_neighbours();
       f.source[i] = spray ? no_part
-                          : inverse_dt * (corrected ? corrected_density_rate(world, f.velocity, i, images, boundary)
+                          : inverse_dt * (corrected ? corrected_density_rate(world, f.velocity, i, images)
                                                     : density_rate(world, f.velocity, i, images, boundary));
       return spray ? 1.0 : 0.0;
     });
@@ -290,7 +292,7 @@ double divergence_error(const World& world) {
   with_images(world.cells, [&](auto images) {
     sum = particle_sum(world.count, [&](std::size_t i) {
       if (f.neighbour_number[i] < world.least_neighbours()) return 0.0;
-      const float rate = corrected ? corrected_density_rate(world, f.velocity, i, images, boundary)
+      const float rate = corrected ? corrected_density_rate(world, f.velocity, i, images)
                                    : density_rate(world, f.velocity, i, images, boundary);
       return std::max(0.0, double{rate});
     });
