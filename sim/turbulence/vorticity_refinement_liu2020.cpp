@@ -58,7 +58,8 @@ void sum_stream_function(World& world) {
         const Vec8 loss = gather(f.lost_vorticity.data(), p.j);
         const f8 r2 = max(p.r2, splat(nearest2));
         const f8 greens = flat ? natural_log(r2 * (1 / reach2)) : inverse_sqrt(r2);
-        const f8 weight = (p.r2 > 0.0f) & (p.r2 < reach2) ? greens * loss.w : f8{};  // a list is padded with r = 0
+        const auto near = (p.r2 > 0.0f) & (p.r2 < reach2);  // a list is padded with r = 0
+        const f8 weight = near ? greens * loss.w : f8{};
         potential.add(weight * loss.x, weight * loss.y, weight * loss.z);
       });
       f.stream_function[i] = strength * potential.total();
