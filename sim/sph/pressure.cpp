@@ -76,7 +76,11 @@ float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size
   for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
     add(weight * world.kernel.slope(p.r2), reflect(gather(v.data(), p.j), r.sign, {}), p);
   });
-  return world.mass * sum(rate);
+  const float fluid = world.mass * sum(rate);
+  if (world.bodies.count() == 0) return fluid;
+  // What bodies add is all that walls do not.
+  const Vec3 bodies = world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
+  return fluid + dot(own, bodies);
 }
 
 struct Progress {
