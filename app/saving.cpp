@@ -8,6 +8,10 @@ namespace curlew {
 
 void save_checkpoint(const std::string& file, const World& world, std::vector<std::pair<std::string, double>> numbers) {
   if (world.energy.reserve != 0) numbers.emplace_back("energy_reserve", world.energy.reserve);
+  if (world.start.known) {
+    numbers.emplace_back("start_speed", world.start.speed);
+    numbers.emplace_back("start_energy", world.start.energy);
+  }
   CheckpointInfo info{scene_json(world.scene),
                       world.scene.file.string(),
                       version_text(),

@@ -11,6 +11,7 @@
 
 #include "app/saving.h"
 #include "sim/core/error.h"
+#include "sim/core/watch.h"
 #include "sim/measure/diagnostics.h"
 #include "sim/measure/state_hash.h"
 #include "sim/scene/resolution.h"
@@ -98,6 +99,7 @@ void Session::play(bool on) {
   {
     const std::lock_guard lock(mutex_);
     playing_ = on && loaded_;
+    if (playing_ && diverged_) tasks_.emplace_back([this] { forgive(world_); });
     if (on) diverged_ = false;
   }
   wake_.notify_all();

@@ -111,6 +111,7 @@ class Interface {
   void draw_status(float height);
   void draw_help();
   void draw_loading();
+  void halve_time_step();
   void handle_keys();
   void handle_key(const Key& pressed);
   void handle_mouse(std::array<float, 4> box);

@@ -47,13 +47,9 @@ void Interface::draw_status(float height) {
       if (button("OK", "Close this message")) message_.clear();
       if (status_.state == RunState::diverged) {
         ImGui::SameLine();
-        if (button("Go on with half the time step", "Halves time.cfl, or time.fixed_step where that is set")) {
-          Parameters next = scene_.parameters;
-          const ParameterRow& row = parameter_row(next.time.fixed_step > 0 ? "time.fixed_step" : "time.cfl");
-          row.set(next, std::max(row.min, row.get(next) / 2));
-          change(next);
-          message_.clear();
-          session_.play(true);
+        if (button("Go on with half the time step",
+                   "Halves the limits of the time step (time.cfl and others), or time.fixed_step where that is set")) {
+          halve_time_step();
         }
       }
     } else {
@@ -63,6 +59,23 @@ void Interface::draw_status(float height) {
     ImGui::End();
   }
   ImGui::End();
+}
+
+void Interface::halve_time_step() {
+  Parameters next = scene_.parameters;
+  const auto halve = [&](const char* name) {
+    const ParameterRow& row = parameter_row(name);
+    row.set(next, std::max(row.min, row.get(next) / 2));
+  };
+  if (next.time.fixed_step > 0) {
+    halve("time.fixed_step");
+  } else {
+    for (const char* limit : {"time.cfl", "time.acceleration_factor", "time.viscosity_factor", "time.max_step"})
+      halve(limit);
+  }
+  change(next);
+  message_.clear();
+  session_.play(true);
 }
 
 void Interface::draw_loading() {

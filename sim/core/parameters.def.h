@@ -102,19 +102,25 @@
        "Time in which the guard forgets energy that was lost and not given back: old losses cannot be spent in still " \
        "water.")
 
-#define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
-  REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live,                                                                \
-       "Farthest that a particle may move in a step, in particle "                                                   \
-       "spacings (Monaghan 1992).")                                                                                  \
-  REAL(acceleration_factor, 0.25, 0.05, 1.0, 0.01, 10.0, "1", "", live,                                              \
-       "Step limit from acceleration: factor times sqrt(d / |a|) (Monaghan 1992).")                                  \
-  REAL(viscosity_factor, 0.125, 0.01, 0.25, 0.001, 10.0, "1", "", live,                                              \
-       "Step limit from explicit viscosity: factor times d^2 / nu (Morris et al. 1997).")                            \
-  REAL(growth, 1.1, 1.01, 2.0, 1.001, 1000.0, "1", "", live, "Most that a step may grow over the one before.")       \
-  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step that the limits may choose.")     \
-  REAL(fixed_step, 0.0, 0.0, 1e-2, 0.0, 10.0, "s", "dt", live, "Fixed time step; 0 chooses the step by the limits.") \
-  REAL(max_displacement, 5.0, 1.0, 10.0, 0.1, 1e6, "d", "", live,                                                    \
-       "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")
+#define CURLEW_TIME_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                             \
+  REAL(cfl, 0.3, 0.1, 1.0, 0.01, 10.0, "1", "", live,                                                                 \
+       "Farthest that a particle may move in a step, in particle "                                                    \
+       "spacings (Monaghan 1992).")                                                                                   \
+  REAL(acceleration_factor, 0.25, 0.05, 1.0, 0.01, 10.0, "1", "", live,                                               \
+       "Step limit from acceleration: factor times sqrt(d / |a|) (Monaghan 1992).")                                   \
+  REAL(viscosity_factor, 0.125, 0.01, 0.25, 0.001, 10.0, "1", "", live,                                               \
+       "Step limit from explicit viscosity: factor times d^2 / nu (Morris et al. 1997).")                             \
+  REAL(growth, 1.1, 1.01, 2.0, 1.001, 1000.0, "1", "", live, "Most that a step may grow over the one before.")        \
+  REAL(max_step, 5e-3, 1e-4, 2e-2, 1e-9, 10.0, "s", "dt", live, "Largest time step that the limits may choose.")      \
+  REAL(fixed_step, 0.0, 0.0, 1e-2, 0.0, 10.0, "s", "dt", live, "Fixed time step; 0 chooses the step by the limits.")  \
+  REAL(max_displacement, 5.0, 1.0, 10.0, 0.1, 1e6, "d", "", live,                                                     \
+       "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")         \
+  REAL(max_speed, 20.0, 2.0, 100.0, 1.0, 1e6, "1", "", live,                                                          \
+       "A particle faster than this many times what the scene can bring forth (speed at the start, of moving walls, " \
+       "of a fall through the domain) has diverged: the run stops.")                                                  \
+  REAL(max_energy, 2.0, 1.1, 10.0, 1.0, 1e6, "1", "", live,                                                           \
+       "Water with more than this many times the mechanical energy of the start has diverged: the run stops. Not "    \
+       "where walls move, a torque acts, or turbulence models run without energy.guard.")
 
 // group name, struct, table, heading
 #define CURLEW_PARAMETER_GROUPS(GROUP)                                                                  \

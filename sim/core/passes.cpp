@@ -1,11 +1,10 @@
 #include "sim/core/passes.h"
 
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
+#include "sim/core/watch.h"
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
 #include "sim/sph/pressure.h"
@@ -54,6 +53,12 @@ constexpr FieldSet solver_input =
     FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space | filled_fields;
 
 constexpr Pass passes[] = {
+    {.name = "energy_watch",
+     .reads = particle_state,
+     .writes = {},
+     .wanted = always,
+     .run = watch_energy,
+     .essential = true},
     // At the positions that the last step left, with the step that it took:
     {.name = "divergence_solve",
      .reads = solver_input | FieldSet{divergence_stiffness},
@@ -180,7 +185,8 @@ constexpr Pass passes[] = {
 // Whether a pass advances the state, rather than find out what depends on positions alone.
 bool advances(const Pass& pass) {
   return pass.changes_velocity || pass.writes.meets(FieldSet{acceleration} | FieldSet::of(FieldKind::model)) ||
-         pass.name == "time_step" || pass.name == "advect" || pass.name == "energy_account";
+         pass.name == "time_step" || pass.name == "advect" || pass.name == "energy_account" ||
+         pass.name == "energy_watch";
 }
 
 // Fields that a pass touches but that this world has no use for.
@@ -201,36 +207,6 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
     unused = unused | FieldSet{no_slip_gradient};
   }
   return unused;
-}
-
-// The sentence of a DivergedError: which pass, which particle, why, and what to change.
-[[noreturn]] void report_divergence(const World& world, const Pass& pass, std::size_t i, double speed) {
-  const double limit = world.parameters().time.max_displacement * world.scene.spacing() / world.dt;
-  char what[400];
-  if (std::isfinite(speed)) {
-    std::snprintf(what, sizeof what,
-                  "reached %.3g m/s, more than the %.3g m/s that time.max_displacement allows in a "
-                  "step of %.3g s",
-                  speed, limit, world.dt);
-  } else {
-    std::snprintf(what, sizeof what, "has a velocity that is not finite");
-  }
-  const char* advice = world.parameters().time.fixed_step > 0 ? "use a smaller time.fixed_step"
-                       : pass.name == "viscosity"             ? "lower time.viscosity_factor"
-                                                              : "lower time.cfl or raise pressure.max_iterations";
-  const std::uint32_t particle = world.fields.id[i];
-  throw DivergedError("the simulation diverged at step " + std::to_string(world.step + 1) + ", time " +
-                          number_text(world.time) + " s: after pass " + std::string(pass.name) + " particle " +
-                          std::to_string(particle) + " " + what + "; " + advice,
-                      std::string(pass.name), particle);
-}
-
-void guard(const World& world, const Pass& pass) {
-  const Array<Vec3>& v = world.fields.velocity;
-  const Largest fastest = particle_max(world.count, [&](std::size_t i) { return double{dot(v[i], v[i])}; });
-  const double speed = std::sqrt(fastest.value);
-  const double limit = world.parameters().time.max_displacement * world.scene.spacing() / world.dt;
-  if (!(speed <= limit) && world.count > 0) report_divergence(world, pass, fastest.index, speed);
 }
 
 void save_backup(World& world) {
@@ -262,7 +238,7 @@ void run_passes(World& world, const std::vector<const Pass*>& list, PassObserver
   for (const Pass* pass : list) {
     const auto begin = Clock::now();
     pass->run(world);
-    if (pass->changes_velocity) guard(world, *pass);
+    if (pass->changes_velocity) check_velocities(world, pass->name);
     const std::chrono::duration<double, std::milli> taken = Clock::now() - begin;
     if (observer != nullptr) observer->after(*pass, world, taken.count());
   }
@@ -322,6 +298,7 @@ void allocate(World& world, const Plan& plan) {
 void prepare(World& world, const Plan& plan) {
   allocate(world, plan);
   run_passes(world, plan.prepare, nullptr);
+  remember_start(world);
   if (world.dt <= 0) world.dt = initial_time_step(world);
 }
 

@@ -51,6 +51,13 @@ struct EnergyAccount {
   double outer_work = 0, given = 0;  // by viscosity and external torque, and by the models, in the step in hand
 };
 
+// What the water began with, for the watch (sim/core/watch.h). State.
+struct Start {
+  double speed = 0;   // m/s, of the fastest particle
+  double energy = 0;  // J, mechanical and of microrotation
+  bool known = false;
+};
+
 struct World {
   Scene scene;
   std::uint64_t seed = 0;
@@ -71,6 +78,7 @@ struct World {
   double time = 0;  // s
   double dt = 0;    // s, of the last step; before the first, the step it would like
   EnergyAccount energy;
+  Start start;
   StepReport report;
   WorkCount work;
   Backup backup;

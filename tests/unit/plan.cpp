@@ -47,9 +47,9 @@ Cost cost_of(const Scene& scene, FieldSet demanded = {}) {
 TEST_CASE("a plain scene plans the plain solver", "[plan]") {
   const World world = make_world(small_scene());
   const Plan plan = make_plan(world);
-  CHECK(names(plan) == std::vector<std::string_view>{"divergence_solve", "gravity", "time_step", "apply_forces",
-                                                     "density_solve", "advect", "sort", "neighbours", "boundary",
-                                                     "density"});
+  CHECK(names(plan) == std::vector<std::string_view>{"energy_watch", "divergence_solve", "gravity", "time_step",
+                                                     "apply_forces", "density_solve", "advect", "sort", "neighbours",
+                                                     "boundary", "density"});
   CHECK_FALSE(plan.fields.has(FieldId::vorticity));
   CHECK_FALSE(plan.fields.has(FieldId::pressure));
   CHECK_FALSE(plan.fields.has(FieldId::boundary_friction));
