@@ -26,10 +26,12 @@ double particle_area(const World& world) { return double{world.mass} / world.par
 
 constexpr double wave_depth = 1, wave_length = 2, wave_k = 2 * pi / wave_length, wave_amplitude = 0.1 / wave_k;
 
+// Jittered: as a crystal the particles resist shear, which shortens the period by 2.8 % at 20 particles across the
+// depth, with tolerances / 10 (0.1 jitter: 1.2 %, 0.25: 0.1 % too long).
 Scene standing_wave(int across) {
   return scene_of(R"({"curlew": 1, "dimension": 2,
     "domain": {"min": [0, 0], "max": [2, 1.5], "periodic": [true, false]},
-    "fluid": [{"box": {"min": [0, 0], "max": [2, 1]}}]})",
+    "fluid": [{"box": {"min": [0, 0], "max": [2, 1]}, "jitter": 0.25}]})",
                   1.0 / across);
 }
 
