@@ -1,4 +1,5 @@
-// The cases of the work-precision bench, each against its exact answer.
+// The cases of the work-precision bench, each against its exact answer; those with a free surface are in
+// precision_free_surface.cpp.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,37 +9,11 @@
 #include "sim/core/parallel.h"
 #include "sim/measure/diagnostics.h"
 #include "sim/measure/vortex.h"
-#include "sim/scene/reader.h"
 
 namespace curlew {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Scene scene_of(const std::string& json, double spacing) {
-  Scene scene = parse_scene(json, "bench.json");
-  scene.particle_radius = spacing / 2;
-  return scene;
-}
-
-// What every case varies: the kernel's width, tolerances and the time step.
-std::vector<PrecisionSetting> usual_settings() {
-  return {
-      {"default", {}},
-      {"h/d 1.3", {"sph.h_over_d=1.3"}},
-      {"h/d 1.6", {"sph.h_over_d=1.6"}},
-      {"h/d 2", {"sph.h_over_d=2"}},
-      {"tolerances / 10", {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-5"}},
-      {"tolerances x 10", {"pressure.density_tolerance=1e-3", "pressure.divergence_tolerance=1e-2"}},
-      {"steps / 2", {"time.cfl=0.15", "time.acceleration_factor=0.125", "time.viscosity_factor=0.0625"}},
-      {"cold start", {"pressure.warm_start=false"}},
-  };
-}
-
-std::vector<PrecisionSetting> with(std::vector<PrecisionSetting> settings, PrecisionSetting more) {
-  settings.push_back(std::move(more));
-  return settings;
-}
 
 // Taylor-Green vortices, Re = 100: u = -U e^(bt) cos X sin Y, v = U e^(bt) sin X cos Y, X = 2 pi x / L,
 // b = -8 pi^2 nu / L^2.
@@ -140,10 +115,8 @@ std::vector<double> measure_tank(const Scene& scene, std::int64_t& steps) {
   return {100 * std::abs(pressure / exact - 1), 100 * speed / std::sqrt(g)};
 }
 
-}  // namespace
-
-const std::vector<PrecisionCase>& precision_cases() {
-  static const std::vector<PrecisionCase> cases = {
+std::vector<PrecisionCase> first_cases() {
+  return {
       {"taylor_green",
        "Taylor-Green vortices, Re 100, t = 1 s",
        {"L1 velocity error (%)", "decay rate, error (%)", "amplitude, error (%)"},
@@ -173,6 +146,16 @@ const std::vector<PrecisionCase>& precision_cases() {
        tank,
        measure_tank},
   };
+}
+
+}  // namespace
+
+const std::vector<PrecisionCase>& precision_cases() {
+  static const std::vector<PrecisionCase> cases = [] {
+    std::vector<PrecisionCase> all = first_cases();
+    for (PrecisionCase& c : free_surface_cases()) all.push_back(std::move(c));
+    return all;
+  }();
   return cases;
 }
 

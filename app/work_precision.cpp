@@ -12,6 +12,7 @@
 #include "app/svg_plot.h"
 #include "sim/core/error.h"
 #include "sim/io/csv.h"
+#include "sim/scene/reader.h"
 
 namespace curlew {
 namespace {
@@ -92,6 +93,30 @@ std::vector<int> resolutions_of(const PrecisionCase& what, const BenchOptions& o
 }
 
 }  // namespace
+
+Scene scene_of(const std::string& json, double spacing) {
+  Scene scene = parse_scene(json, "bench.json");
+  scene.particle_radius = spacing / 2;
+  return scene;
+}
+
+std::vector<PrecisionSetting> usual_settings() {
+  return {
+      {"default", {}},
+      {"h/d 1.3", {"sph.h_over_d=1.3"}},
+      {"h/d 1.6", {"sph.h_over_d=1.6"}},
+      {"h/d 2", {"sph.h_over_d=2"}},
+      {"tolerances / 10", {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-5"}},
+      {"tolerances x 10", {"pressure.density_tolerance=1e-3", "pressure.divergence_tolerance=1e-2"}},
+      {"steps / 2", {"time.cfl=0.15", "time.acceleration_factor=0.125", "time.viscosity_factor=0.0625"}},
+      {"cold start", {"pressure.warm_start=false"}},
+  };
+}
+
+std::vector<PrecisionSetting> with(std::vector<PrecisionSetting> settings, PrecisionSetting more) {
+  settings.push_back(std::move(more));
+  return settings;
+}
 
 PrecisionRun::PrecisionRun(const Scene& scene, FieldSet demanded)
     : world(make_world(scene)), plan(make_plan(world, demanded)) {

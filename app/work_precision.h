@@ -28,6 +28,13 @@ struct PrecisionSetting {
   std::vector<std::string> settings;  // key=value
 };
 
+// What every case varies: the kernel's width, tolerances and the time step.
+std::vector<PrecisionSetting> usual_settings();
+std::vector<PrecisionSetting> with(std::vector<PrecisionSetting> settings, PrecisionSetting more);
+
+// A scene in JSON at a spacing (m).
+Scene scene_of(const std::string& json, double spacing);
+
 struct PrecisionCase {
   std::string name, title;
   std::vector<std::string> errors;  // what measure() returns, with units; the first is plotted
@@ -58,7 +65,10 @@ std::vector<PrecisionResult> pareto_front(std::vector<PrecisionResult> results);
 // do. Options may replace the resolutions (--cases) and add settings to all runs (--set).
 void run_precision_case(const PrecisionCase& what, const BenchOptions& options);
 
-// The cases of the bench.
+// Those with a free surface.
+std::vector<PrecisionCase> free_surface_cases();
+
+// All cases of the bench: flows that fill their domain, a tank at rest, and those with a free surface.
 const std::vector<PrecisionCase>& precision_cases();
 
 }  // namespace curlew
