@@ -138,7 +138,8 @@ TEST_CASE("potential energy changes by gravity along the particles' ways", "[bud
       {3, {0, -9.81, 0}},
       {3, {-3, -8, 5}},
   }));
-  Scene scene = at_particles_per_metre(bundled(dimension == 2 ? "dam_break_2d" : "dam_break"), dimension == 2 ? 30 : 14);
+  Scene scene =
+      at_particles_per_metre(bundled(dimension == 2 ? "dam_break_2d" : "dam_break"), dimension == 2 ? 30 : 14);
   scene.gravity = gravity;
   CAPTURE(dimension, gravity.x, gravity.y, gravity.z);
   Run run(scene);

@@ -62,6 +62,7 @@ Scene periodic_box(int dimension, int particles_per_metre, const Model& model) {
   scene.fluid[0].shape = Box{scene.domain.min, scene.domain.max};
   scene.parameters.viscosity.nu = 1e-3;
   scene.parameters.time.fixed_step = 2e-3;
+  scene.parameters.energy.guard = false;
   model.set(scene.parameters);
   return scene;
 }
