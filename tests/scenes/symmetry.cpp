@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "tests/scenes/scene_test.h"
 
@@ -20,21 +21,16 @@ struct Map {
   Vec3d axial(Vec3d a) const { return handedness * (*this)(a); }
 };
 
-constexpr Vec3d ex{1, 0, 0}, ey{0, 1, 0}, ez{0, 0, 1}, minus_x{-1, 0, 0}, minus_y{0, -1, 0}, minus_z{0, 0, -1};
+constexpr Vec3d ex{1, 0, 0}, ey{0, 1, 0}, ez{0, 0, 1};
+constexpr Vec3d minus_x{-1, 0, 0}, minus_y{0, -1, 0}, minus_z{0, 0, -1};
 constexpr Map same{"as it is", ex, ey, ez, 1};
-constexpr Map maps_2d[] = {
-    {"mirrored", minus_x, ey, ez, -1},
-    {"turned by 90 degrees", ey, minus_x, ez, 1},
-    {"mirrored in the diagonal", ey, ex, ez, -1},
-};
-constexpr Map maps_3d[] = {
-    {"mirrored", ex, ey, minus_z, -1},
-    {"turned by 90 degrees about x", ex, ez, minus_y, 1},
-    {"axes exchanged in turn", ey, ez, ex, 1},
-    {"turned about y and mirrored", minus_z, minus_y, ex, -1},
-};
+constexpr Map mirrored{"mirrored", minus_x, ey, ez, -1};
+constexpr Map turned{"turned by 90 degrees", ey, minus_x, ez, 1};
+constexpr Map exchanged{"axes exchanged in turn", ey, ez, ex, 1};
+constexpr Map both{"turned about y and mirrored", minus_z, minus_y, ex, -1};
 
-// One model at a time, and none.
+// One model at a time, and none, each without the energy guard: what energy a model adds depends on the frame where it
+// adds momentum too, as confinement and the micropolar model do.
 struct Model {
   const char* name;
   void (*set)(Parameters&);
@@ -50,6 +46,12 @@ constexpr Model models[] = {
     {"micropolar", [](Parameters& p) { p.micropolar.nu_t = 0.05; }},
     {"confinement", [](Parameters& p) { p.vorticity_confinement.epsilon = 0.1; }},
 };
+constexpr Model all_guarded{"all, guarded", [](Parameters& p) {
+                              for (const Model& model : models) {
+                                if (std::string_view(model.name) != "refinement by the sum") model.set(p);
+                              }
+                              p.energy.guard = true;
+                            }};
 
 // A periodic square or cube of 1 m around the origin, full of fluid off its lattice.
 Scene periodic_box(int dimension, int particles_per_metre, const Model& model) {
@@ -61,7 +63,7 @@ Scene periodic_box(int dimension, int particles_per_metre, const Model& model) {
   scene.domain.periodic[2] = dimension == 3;
   scene.fluid[0].shape = Box{scene.domain.min, scene.domain.max};
   scene.parameters.viscosity.nu = 1e-3;
-  scene.parameters.time.fixed_step = 2e-3;
+  scene.parameters.time.fixed_step = 4e-3;
   scene.parameters.energy.guard = false;
   model.set(scene.parameters);
   return scene;
@@ -110,16 +112,24 @@ double distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, Mapped
   return std::sqrt(difference / size);
 }
 
-void check_same(const Answer& expected, const Answer& found, const Map& map) {
+// How far two answers may be apart: in energies, and in the fields.
+struct Tolerance {
+  double energy = 1e-4, field = 3e-3;
+};
+// The grid of Poisson's equation stands still in space. Another place of the same particles on it makes 2e-4 to 5e-4 of
+// the kinetic energy in this time, whether they were moved there or drift.
+constexpr Tolerance over_the_grid{1e-3, 3e-2};
+
+void check_same(const Answer& expected, const Answer& found, const Map& map, Tolerance tolerance = {}) {
   const double apart = distance(expected.velocity, found.velocity, map);
   INFO("velocities apart by " << apart << ", kinetic energy by " << found.kinetic / expected.kinetic - 1);
-  CHECK(found.kinetic == Approx(expected.kinetic).epsilon(1e-4));
-  CHECK(apart < 1e-2);
+  CHECK(found.kinetic == Approx(expected.kinetic).epsilon(tolerance.energy));
+  CHECK(apart < tolerance.field);
   if (expected.spin.empty()) return;
   const double spins = distance(expected.spin, found.spin, [&](Vec3d a) { return map.axial(a); });
-  INFO("spins apart by " << spins);
-  CHECK(found.rotational == Approx(expected.rotational).epsilon(1e-4));
-  CHECK(spins < 1e-2);
+  INFO("spins apart by " << spins << ", their energy by " << found.rotational / expected.rotational - 1);
+  CHECK(found.rotational == Approx(expected.rotational).epsilon(tolerance.energy));
+  CHECK(spins < tolerance.field);
 }
 
 }  // namespace
@@ -127,12 +137,15 @@ void check_same(const Answer& expected, const Answer& found, const Map& map) {
 TEST_CASE("Taylor-Green vortices are the same in a moving frame, mirrored and turned", "[symmetry]") {
   for (const Model& model : models) {
     const Scene scene = periodic_box(2, 40, model);
+    const bool grid =
+        scene.parameters.vorticity_refinement.alpha > 0 && scene.parameters.vorticity_refinement.reconstruction ==
+                                                               VorticityRefinementParameters::reconstruction_t::poisson;
     const Answer plain = answer(scene, same, {}, 0.2);
     {
       INFO(model.name << ", moving");
-      check_same(plain, answer(scene, same, {0.3, 0, 0}, 0.2), same);
+      check_same(plain, answer(scene, same, {0.3, 0, 0}, 0.2), same, grid ? over_the_grid : Tolerance{});
     }
-    for (const Map& map : maps_2d) {
+    for (const Map& map : {mirrored, turned}) {
       INFO(model.name << ", " << map.name);
       check_same(plain, answer(scene, map, {}, 0.2), map);
     }
@@ -142,14 +155,24 @@ TEST_CASE("Taylor-Green vortices are the same in a moving frame, mirrored and tu
 TEST_CASE("a helical flow in 3D is the same in a moving frame, mirrored and turned", "[symmetry]") {
   for (const Model& model : models) {
     const Scene scene = periodic_box(3, 14, model);
-    const Answer plain = answer(scene, same, {}, 0.1);
+    const Answer plain = answer(scene, same, {}, 0.06);
     {
       INFO(model.name << ", moving");
-      check_same(plain, answer(scene, same, {0.1, 0.2, 0.3}, 0.1), same);
+      check_same(plain, answer(scene, same, {0.1, 0.2, 0.3}, 0.06), same);
     }
-    for (const Map& map : maps_3d) {
+    for (const Map& map : {mirrored, exchanged, both}) {
       INFO(model.name << ", " << map.name);
-      check_same(plain, answer(scene, map, {}, 0.1), map);
+      check_same(plain, answer(scene, map, {}, 0.06), map);
     }
+  }
+}
+
+TEST_CASE("all models together under the guard know no direction and no handedness", "[symmetry]") {
+  const int dimension = GENERATE(2, 3);
+  const Scene scene = periodic_box(dimension, dimension == 2 ? 40 : 14, all_guarded);
+  const Answer plain = answer(scene, same, {}, 0.1);
+  for (const Map& map : {mirrored, dimension == 2 ? turned : both}) {
+    INFO(dimension << "D, " << map.name);
+    check_same(plain, answer(scene, map, {}, 0.1), map);
   }
 }
