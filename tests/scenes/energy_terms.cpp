@@ -88,7 +88,8 @@ double gravity_splitting_error(double dt) {
 
 TEST_CASE("what viscosity takes from Taylor-Green vortices is 2 nu times their enstrophy", "[budget]") {
   // rho nu int omega^2 = M nu |k|^2 U^2 / 2 with |k|^2 = 2 (2 pi / L)^2, U: amplitude of the flow that is there.
-  const Scene scene = bundled("taylor_green");
+  Scene scene = bundled("taylor_green");
+  scene.parameters.sph.h_over_d = 1.3;  // particles lie in disorder: with h = d the Laplacian misses 2 %
   InitialVelocity unit = scene.fluid[0].velocity;
   unit.speed = 1;
   Account account(make_world(scene), {FieldId::vorticity});
