@@ -36,7 +36,7 @@ std::span<const BenchRow> bench_table() {
       {"accuracy",
        "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop with every turbulence "
        "method; "
-       "taylor_green, couette, poiseuille, hydrostatic as error against run time",
+       "taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic as error against run time",
        {"CASE", "--cases", "--share", "--out"},
        accuracy_bench},
   };

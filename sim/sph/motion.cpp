@@ -31,6 +31,19 @@ double largest_length(std::size_t n, const Array<Vec3>& field) {
       std::max(0.0, particle_max(n, [&](std::size_t i) { return double{dot(field[i], field[i])}; }).value));
 }
 
+// Largest speed as the fluid on the whole sees it, which is the same in every frame.
+double largest_relative_speed(const World& world) {
+  const Array<Vec3>& v = world.fields.velocity;
+  const auto sum = ordered_sum<Vec3d>(world.count, [&](std::size_t begin, std::size_t end) {
+    Vec3d part;
+    for (std::size_t i = begin; i < end; ++i) part += to_double(v[i]);
+    return part;
+  });
+  const Vec3d mean = 1 / static_cast<double>(world.count) * sum;
+  const auto square = [&](std::size_t i) { return dot(to_double(v[i]) - mean, to_double(v[i]) - mean); };
+  return std::sqrt(std::max(0.0, particle_max(world.count, square).value));
+}
+
 }  // namespace
 
 void gravity(World& world) {
@@ -130,7 +143,7 @@ void shift_particles(World& world) {
   const double h = world.kernel.h();
   // Shifting is a diffusion of particles: beyond 0.2 h^2 a step it overshoots.
   const float strength = static_cast<float>(
-      std::min(world.parameters().pressure.shifting * h * world.dt * world.report.max_speed, 0.2 * h * h));
+      std::min(world.parameters().pressure.shifting * h * world.dt * largest_relative_speed(world), 0.2 * h * h));
   const float farthest = 0.2f * static_cast<float>(world.scene.spacing()), full = 0.9f * world.rest_density();
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
@@ -148,7 +161,7 @@ void shift_particles(World& world) {
       f.acceleration[i] = distance > farthest ? (farthest / distance) * move : move;
     });
     parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 move = f.acceleration[i], v = f.velocity[i];
+      const Vec3 move = f.acceleration[i] + f.displacement[i], v = f.velocity[i];
       f8 x{}, y{}, z{};
       for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
         const Vec8 other = gather(f.velocity.data(), p.j);

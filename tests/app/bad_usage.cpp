@@ -52,7 +52,7 @@ const std::vector<Row> commands = {
     {"bench", "NAME is required; see `curlew bench --help`"},
     {"bench sped", R"(the benchmark is "sped", expected speed, memory, energy, overhead, stability or accuracy)"},
     {"bench accuracy gresho",
-     R"(there is no accuracy case "gresho", expected one of gresho_chan, lamb_oseen, taylor_vortex, spinning_drop, taylor_green, couette, poiseuille, hydrostatic, standing_wave, square_patch, oscillating_drop, dam_break_front)"},
+     R"(there is no accuracy case "gresho", expected one of gresho_chan, lamb_oseen, taylor_vortex, spinning_drop, taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic, standing_wave, square_patch, oscillating_drop, dam_break_front)"},
     {"bench speed gresho_chan", "curlew bench speed takes no CASE; see `curlew bench --help`"},
     {"bench speed --cases lots", R"(--cases is "lots", expected a number such as 24389, 24k, 1.2M or 1e5)"},
     {"bench speed --share 0", R"(--share is "0", expected a positive number)"},

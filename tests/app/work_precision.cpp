@@ -2,7 +2,9 @@
 #include "app/work_precision.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "app/setup.h"
 #include "tests/app/run_files.h"
 #include "tests/app/svg_text.h"
 #include "tests/io/temporary_folder.h"
@@ -13,6 +15,22 @@ using namespace curlew::test;
 namespace {
 
 PrecisionResult result(double seconds, double error) { return {"default", 10, {error}, seconds, 1, {}}; }
+
+// The errors of Taylor-Green vortices at Re 100, in per cent, with the settings that the bench calls accurate.
+std::vector<double> taylor_green_errors(int across) {
+  for (const PrecisionCase& c : precision_cases()) {
+    if (c.name != "taylor_green") continue;
+    Scene scene = c.scene(across);
+    for (const PrecisionSetting& setting : c.settings) {
+      if (setting.name == "accurate") apply_settings(scene.parameters, setting.settings);
+    }
+    CHECK(scene.parameters.pressure.density_tolerance < 1e-4);
+    std::int64_t steps = 0;
+    return c.measure(scene, steps);
+  }
+  FAIL("there is no case taylor_green");
+  return {};
+}
 
 }  // namespace
 
@@ -44,6 +62,20 @@ TEST_CASE("start-up flows between plates converge in the second order, within a 
     CHECK(observed_order(coarse, 10, fine, 20) > 1.5);
     CHECK(steps > 1000);
   }
+}
+
+TEST_CASE("Taylor-Green vortices converge in the second order") {
+  const double coarse = taylor_green_errors(25)[0], fine = taylor_green_errors(50)[0];
+  CHECK(fine < 3);  // per cent; measured: 5.0 and 1.4
+  CHECK(observed_order(coarse, 25, fine, 50) > 1.5);
+}
+
+TEST_CASE("Taylor-Green vortices converge up to 100 particles across", "[slow]") {
+  const double coarse = taylor_green_errors(50)[0];
+  const std::vector<double> fine = taylor_green_errors(100);
+  CHECK(fine[0] < 3);  // per cent; measured: 0.48, and the decay rate -0.12
+  CHECK(std::abs(fine[1]) < 2);
+  CHECK(observed_order(coarse, 50, fine[0], 100) > 1.5);
 }
 
 TEST_CASE("a case of the bench is a table, a CSV and a plot") {

@@ -12,15 +12,6 @@
 #include "sim/scene/reader.h"
 
 namespace curlew {
-namespace {
-
-std::vector<Vec3d> by_id(const World& world, const Array<Vec3>& field) {
-  std::vector<Vec3d> sorted;
-  for (std::uint32_t place : order_by_id(world.fields.id)) sorted.push_back(to_double(field[place]));
-  return sorted;
-}
-
-}  // namespace
 
 Scene bundled(const std::string& name) { return read_scene(find_scene(name, CURLEW_ASSETS_DIR)); }
 
@@ -100,6 +91,13 @@ double rms_speed(const World& world) {
 double absolute_momentum(const World& world) {
   const Array<Vec3>& v = world.fields.velocity;
   return double{world.mass} * particle_sum(world.count, [&](std::size_t i) { return length(to_double(v[i])); });
+}
+
+std::vector<Vec3d> by_id(const World& world, const Array<Vec3>& field) {
+  std::vector<Vec3d> sorted;
+  if (field.empty()) return sorted;
+  for (std::uint32_t place : order_by_id(world.fields.id)) sorted.push_back(to_double(field[place]));
+  return sorted;
 }
 
 std::vector<Vec3d> positions_by_id(const World& world) { return by_id(world, world.fields.position); }

@@ -78,7 +78,8 @@ double rms_speed(const World& world);
 // sum m |v|, kg m/s: what momentum is to be measured against.
 double absolute_momentum(const World& world);
 
-// For each particle by rising id.
+// For each particle by rising id; nothing of a field that is not in use.
+std::vector<Vec3d> by_id(const World& world, const Array<Vec3>& field);
 std::vector<Vec3d> positions_by_id(const World& world);
 std::vector<Vec3d> velocities_by_id(const World& world);
 
