@@ -39,6 +39,9 @@ void gresho_chan_accuracy(const BenchOptions& options);
 void lamb_oseen_accuracy(const BenchOptions& options);
 void taylor_vortex_accuracy(const BenchOptions& options);
 void spinning_drop_accuracy(const BenchOptions& options);
+// Long; with every turbulence method, or with those of --methods.
+void cavity_accuracy(const BenchOptions& options);
+void taylor_green_3d_accuracy(const BenchOptions& options);
 
 int accuracy_bench(const BenchOptions& options);
 

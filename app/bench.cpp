@@ -36,8 +36,10 @@ std::span<const BenchRow> bench_table() {
       {"accuracy",
        "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop with every turbulence "
        "method; "
-       "taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic as error against run time",
-       {"CASE", "--cases", "--share", "--out"},
+       "taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic, standing_wave, square_patch, "
+       "oscillating_drop, dam_break_front as error against run time; "
+       "and where they are named, for hours, cavity and taylor_green_3d beside what others have computed",
+       {"CASE", "--cases", "--methods", "--nu", "--share", "--out"},
        accuracy_bench},
   };
   return rows;

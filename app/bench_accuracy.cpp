@@ -24,9 +24,11 @@ namespace {
 struct AccuracyCase {
   std::string name;
   std::function<void(const BenchOptions&)> run;
+  bool takes_methods = false, takes_nu = false;
+  bool is_long = false;  // hours: only where it is named
 };
 
-// Vortices and a drop with every turbulence method; then error against run time.
+// Vortices and a drop with every turbulence method; then error against run time; then flows that others have computed.
 std::vector<AccuracyCase> all_cases() {
   std::vector<AccuracyCase> cases = {
       {"gresho_chan", gresho_chan_accuracy},
@@ -37,6 +39,8 @@ std::vector<AccuracyCase> all_cases() {
   for (const PrecisionCase& c : precision_cases()) {
     cases.push_back({c.name, [&c](const BenchOptions& options) { run_precision_case(c, options); }});
   }
+  cases.push_back({"cavity", cavity_accuracy, true, true, true});
+  cases.push_back({"taylor_green_3d", taylor_green_3d_accuracy, true, false, true});
   return cases;
 }
 
@@ -47,6 +51,15 @@ const AccuracyCase& case_of_name(const std::vector<AccuracyCase>& cases, const s
     known += (known.empty() ? "" : ", ") + c.name;
   }
   throw InputError("there is no accuracy case \"" + name + "\", expected one of " + known);
+}
+
+// Throws InputError where a case does not read an option that was given.
+void check_read(const AccuracyCase& c, const BenchOptions& options) {
+  const auto refuse = [&](const std::string& option) {
+    throw InputError("the accuracy case " + c.name + " takes no " + option);
+  };
+  if (!options.methods.empty() && !c.takes_methods) refuse("--methods");
+  if (!options.nu.empty() && !c.takes_nu) refuse("--nu");
 }
 
 void print_row(const std::vector<std::string>& cells) {
@@ -115,8 +128,11 @@ int accuracy_bench(const BenchOptions& options) {
   std::vector<const AccuracyCase*> chosen;  // all names are looked up before the first case is run
   for (const std::string& name : options.names) chosen.push_back(&case_of_name(cases, name));
   if (chosen.empty()) {
-    for (const AccuracyCase& c : cases) chosen.push_back(&c);
+    for (const AccuracyCase& c : cases) {
+      if (!c.is_long) chosen.push_back(&c);
+    }
   }
+  for (const AccuracyCase* c : chosen) check_read(*c, options);
   std::printf("%d threads, %s\n", omp_get_max_threads(), CURLEW_ISA_NAME);
   for (const AccuracyCase* c : chosen) c->run(options);
   return 0;

@@ -181,9 +181,10 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   app.add_option("--scenes", o.scenes,
                  "energy: dam_break, hemisphere (both); stability: dam_break_2d, dam_break (both)");
   app.add_option("--methods", o.methods,
-                 "energy, overhead: dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or sums such as "
+                 "energy, overhead, cavity, taylor_green_3d: dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or "
+                 "sums such as "
                  "vr1.0+mp0.05 (those of the paper)");
-  app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05)");
+  app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05); cavity: 0.01, 0.001, 0.0001 (the last two)");
   app.add_option_function<std::string>(
       "--time", [&](const std::string& t) { o.time = parse_positive("--time", t, "seconds"); },
       "energy, stability: simulated seconds (12, hemisphere 20, stability 4); overhead: seconds before it measures "

@@ -154,23 +154,24 @@ void shift_particles(World& world) {
         y += slope * p.y;
         z += slope * p.z;
       });
+      for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection&) {
+        const f8 slope = weight * world.kernel.slope(p.r2);
+        x += slope * p.x;
+        y += slope * p.y;
+        z += slope * p.z;
+      });
       Vec3 gradient = (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
-      if (world.has_boundary()) gradient += (1 / f.density[i]) * f.boundary_gradient[i];
+      if (world.bodies.count() > 0) {
+        gradient += (1 / f.density[i]) * (f.boundary_gradient[i] - world.walls.sum(f.position[i]).gradient);
+      }
       const Vec3 move = (f.density[i] >= full ? -strength : 0.0f) * gradient;
       const float distance = length(move);
       f.acceleration[i] = distance > farthest ? (farthest / distance) * move : move;
     });
     parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 move = f.acceleration[i] + f.displacement[i], v = f.velocity[i];
-      f8 x{}, y{}, z{};
-      for_pairs(world.neighbours, f.position.data(), i, images, [&](const Pairs& p) {
-        const Vec8 other = gather(f.velocity.data(), p.j);
-        const f8 along = world.kernel.slope(p.r2) * (move.x * p.x + move.y * p.y + move.z * p.z);
-        x += along * (other.x - v.x);
-        y += along * (other.y - v.y);
-        z += along * (other.z - v.z);
-      });
-      f.packed[i] = v + (world.mass / f.density[i]) * Vec3{sum(x), sum(y), sum(z)};
+      const Vec3 v = f.velocity[i];
+      const bool is_full = f.density[i] >= full;
+      f.packed[i] = is_full ? v + velocity_gradient(world, i, images).along(f.acceleration[i] + f.displacement[i]) : v;
     });
   });
   parallel_for(world.count, [&](std::size_t i) {
