@@ -115,6 +115,7 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
                            "-loglevel",
                            "error",
                            "-nostdin",
+                           "-xerror",  // or ffmpeg 5 ends well on a full disk, with half a film
                            "-y",
                            "-f",
                            "rawvideo",
