@@ -99,6 +99,7 @@ class Run {
     StepRecorder::Settings settings{options.full_columns, options.hash_passes, resumed_};
     recorder_ = std::make_unique<StepRecorder>(folder_, plan_, settings);
     probes_ = std::make_unique<ProbeRecorder>(folder_, world_, resumed_.has_value());
+    if (resumed_) remove_later_checkpoints(folder_, *resumed_);  // now that nothing can refuse to go on
     summary_.resumed_from = options.resume;
     summary_.changed_on_resume = resumed_ && !options.settings.empty();
     next_frame_ = resumed_ ? frame_of(world_.time) + 1 : 0;

@@ -281,6 +281,23 @@ TEST_CASE("a kill at any moment leaves a run that goes on to the same end") {
   check_same_files(folder / "killed", folder / "whole");
 }
 
+TEST_CASE("a run that goes on from an earlier checkpoint leaves none of a later step behind") {
+  const TemporaryFolder folder;
+  const std::string options = " --checkpoint-every 0.05 --quiet --steps ";
+  const auto run = [&](const std::string& line) {
+    const Outcome outcome = curlew_program(words_of("run " + line), {folder.path()});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+  };
+  run("dam_break --particles 300 --out whole" + options + "60");
+  fs::copy(folder / "whole", folder / "part", fs::copy_options::recursive);
+  put_file(folder / "part/checkpoints/mine.curlew", "kept");
+  run("--resume part/checkpoints/000011.curlew" + options + "15");  // as if it had been killed there
+  CHECK(fs::remove(folder / "part/checkpoints/mine.curlew"));
+  run("--resume " + last_checkpoint(folder / "part") + options + "60");
+  check_same_files(folder / "part", folder / "whole");
+}
+
 TEST_CASE("pictures up to a checkpoint are there when it is") {
   const TemporaryFolder folder;
   const std::string line =
