@@ -19,7 +19,7 @@ namespace {
 const char* const kinds[] = {"obj", "ply", "stl"};
 
 std::string scene_with(const std::string& kind) {
-  return R"({"curlew": 1, "particle_radius": 0.1, "domain": {"min": [-2, -2, -2], "max": [2, 2, 2]},
+  return R"({"curlew": 1, "particle_radius": 0.25, "domain": {"min": [-2, -2, -2], "max": [2, 2, 2]},
     "fluid": [{"box": {"min": [-2, -2, -2], "max": [2, -1, 2]}}], "bodies": [{"mesh": {"file": "body.)" +
          kind + "\"}}]}";
 }
