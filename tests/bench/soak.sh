@@ -15,13 +15,12 @@ failed=0
 
 part() { awk -v whole="$1" -v share="$share" 'BEGIN { printf "%.12g", whole * share }'; }
 
-# Resident kilobytes of a process, as long as it runs: 10 samples a second at first, later one every ten seconds.
+# Resident kilobytes of a process at even intervals, as long as it runs.
 watch_memory() {
-  local pause=0.1 samples=0 memory
+  local pause memory
+  pause=$(awk -v share="$share" 'BEGIN { print share < 0.1 ? 0.1 : 1 }')
   while memory=$(awk '/^VmRSS:/ { print $2 }' "/proc/$1/status" 2>/dev/null) && [[ -n $memory ]]; do
     echo "$memory"
-    samples=$((samples + 1))
-    if [[ $samples -eq 600 ]]; then pause=10; fi
     sleep "$pause"
   done
 }
