@@ -149,7 +149,8 @@ void add_run_options(CLI::App& app, RunOptions& o) {
       },
       "Write particles each frame: vtk, ply or bgeo");
   positive("--checkpoint-every", o.checkpoint_every, "seconds", "Write a checkpoint each so many simulated seconds");
-  add_path(app, "--resume", o.resume, "Go on from this checkpoint, to the same bits");
+  add_path(app, "--resume", o.resume,
+           "Go on from this checkpoint, to the same bits; tables and checkpoints beyond it go");
   count("--hash-passes", o.hash_passes, 1, most_steps, "Write passes.csv every so many steps: a hash after each pass");
   app.add_flag("--quiet", o.quiet, "Say nothing but errors")->disable_flag_override();
   app.add_flag("--overwrite", o.overwrite, "Replace what an earlier run left in the folder")->disable_flag_override();

@@ -74,8 +74,12 @@ void FrameOutput::write_particles(const World& world, std::int64_t frame) const 
   if (format_ == "bgeo") write_bgeo(file, particles);
 }
 
-void FrameOutput::finish() {
+void FrameOutput::settle() {
   if (frames_) frames_->finish();
+}
+
+void FrameOutput::finish() {
+  settle();
   if (video_) video_->finish();
 }
 

@@ -30,7 +30,9 @@ class FrameOutput {
   std::optional<std::array<double, 2>> colour_range() const { return range_; }
 
   void write(const World& world, std::int64_t frame);
-  // Waits until all is on disk.
+  // Waits until the pictures so far are on disk.
+  void settle();
+  // The same, and ends the video.
   void finish();
 
  private:

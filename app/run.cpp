@@ -101,6 +101,7 @@ class Run {
     StepRecorder::Settings settings{options.full_columns, options.hash_passes, resumed_};
     recorder_ = std::make_unique<StepRecorder>(folder_, plan_, settings);
     probes_ = std::make_unique<ProbeRecorder>(folder_, world_, resumed_.has_value());
+    if (resumed_) remove_later_checkpoints(folder_, *resumed_);  // now that nothing can refuse to go on
     summary_.resumed_from = options.resume;
     summary_.changed_on_resume = resumed_ && !options.settings.empty();
     next_frame_ = resumed_ ? frame_of(world_.time) + 1 : 0;
@@ -111,6 +112,18 @@ class Run {
   }
 
   int go() {
+    try {
+      return simulate();
+    } catch (const DivergedError&) {
+      throw;
+    } catch (const std::exception& error) {
+      note_failure(error.what());
+      throw;
+    }
+  }
+
+ private:
+  int simulate() {
     watch_for_interrupt();
     if (!resumed_) {
       recorder_->write_row(world_, finished());
@@ -131,7 +144,6 @@ class Run {
     return end();
   }
 
- private:
   std::string choose_folder() const {
     namespace fs = std::filesystem;
     const std::string own = resumed_ ? run_of(options_.resume) : "";
@@ -185,6 +197,7 @@ class Run {
     probes_->write_due(world_);
     write_due_frames();
     if (world_.time >= next_checkpoint_) {
+      output_.settle();  // a resumed run begins with the frame after its checkpoint
       save_checkpoint("");
       next_checkpoint_ = options_.checkpoint_every * (std::floor(world_.time / options_.checkpoint_every) + 1);
     }
@@ -215,11 +228,22 @@ class Run {
     write_run_json(folder_, options_, world_, summary_, output_.graphics());
   }
 
+  // run.json should not say for ever that the run goes on. It may be the disk that failed: then what is there stays.
+  void note_failure(const std::string& what) {
+    summary_.status = "failed";
+    summary_.message = what;
+    try {
+      write_json();
+    } catch (const std::exception&) {  // the first error is the one to tell
+    }
+  }
+
   int end() {
     const bool stopped = stopping_ && !finished();
-    output_.finish();
+    output_.settle();
     std::string saved;
-    if (stopped) saved = save_checkpoint("");
+    if (stopped) saved = save_checkpoint("");  // before the video ends, which may fail
+    output_.finish();
     summary_.status = stopped ? "interrupted" : "done";
     write_json();
     if (!options_.quiet) {

@@ -10,8 +10,8 @@
 namespace curlew {
 
 struct RunSummary {
-  std::string status = "running";  // running, done, interrupted, diverged
-  std::string message;             // of a run that diverged
+  std::string status = "running";  // running, done, interrupted, diverged, failed
+  std::string message;             // of a run that diverged or failed
   std::int64_t frames = 0;
   double wall_seconds = 0;
   std::string resumed_from;        // checkpoint, or empty

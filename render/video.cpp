@@ -105,6 +105,9 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
   if (!words_ || nothing.fd < 0) throw InputError("cannot open a temporary file for ffmpeg: " + reason(errno));
   Descriptor ours, theirs;
   socket_pair(ours, theirs);
+  // The ffmpeg of a run that was killed just now may still be writing: it keeps its own file, and loses the name.
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
   // ffmpeg would say less clearly that the file cannot be written.
   const Descriptor part{open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
   if (part.fd < 0) throw InputError("cannot write " + file_.string() + ": " + reason(errno));
@@ -115,6 +118,7 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
                            "-loglevel",
                            "error",
                            "-nostdin",
+                           "-xerror",  // or ffmpeg 5 ends well on a full disk, with half a film
                            "-y",
                            "-f",
                            "rawvideo",

@@ -1,6 +1,7 @@
 #include "sim/io/run_folder.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -89,6 +90,16 @@ void remove_unfinished_files(const std::string& path) {
   for (const fs::path& folder : folders) {
     for (const fs::path& file : files_in(folder, is_unfinished)) remove_file(file);
   }
+}
+
+void remove_later_checkpoints(const std::string& path, std::int64_t step) {
+  const auto is_later = [step](const fs::path& file) {
+    const std::string stem = file.stem().string();
+    std::int64_t number = 0;
+    const auto [end, status] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+    return file.extension() == ".curlew" && status == std::errc() && end == stem.data() + stem.size() && number > step;
+  };
+  for (const fs::path& file : files_in(fs::path(path) / "checkpoints", is_later)) remove_file(file);
 }
 
 void prepare_run_folder(const std::string& path, bool overwrite) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sim/core/error.h"
 #include "sim/core/params.h"
@@ -50,6 +51,17 @@ void naming(const JsonPlace& place, Load&& load) {
   }
 }
 
+// The bound of every number of a scene: sampling counts in spacings, which has to fit.
+void require_near(const TriangleMesh& mesh, const std::string& place) {
+  for (const Vec3d& vertex : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(vertex[axis]) <= largest_length) continue;
+      throw InputError(place + ": has a vertex at " + std::string(1, "xyz"[axis]) + " = " + plain_number(vertex[axis]) +
+                       " m in the scene, expected coordinates from -1000000 to 1000000");
+    }
+  }
+}
+
 Mesh read_mesh(const JsonPlace& place, int dimension) {
   if (dimension == 2) place.fail("is a mesh, which a scene of 2 dimensions cannot hold, expected another shape");
   place.allow({"file", "scale", "translation", "rotation"});
@@ -64,6 +76,7 @@ Mesh read_mesh(const JsonPlace& place, int dimension) {
     require_closed(loaded, file.string());
     mesh.mesh = std::make_shared<const TriangleMesh>(
         transformed(std::move(loaded), mesh.scale, mesh.rotation, mesh.translation));
+    require_near(*mesh.mesh, file.string());
   });
   return mesh;
 }

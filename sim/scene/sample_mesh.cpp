@@ -95,8 +95,24 @@ class Packing {
   PointGrid grid_;
 };
 
-// Ends first, then the inside of each edge cut evenly.
-void pack_edges(const std::vector<std::pair<Vec3d, Vec3d>>& edges, double d, Packing& packing) {
+// The share of the way from a to b at which the line enters the region, and that at which it leaves it; the first is
+// the larger where the line misses it.
+std::pair<double, double> inside_part(Vec3d a, Vec3d b, const Domain& region) {
+  double first = 0, last = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = b[axis] - a[axis], low = region.min[axis] - a[axis], high = region.max[axis] - a[axis];
+    if (way == 0) {
+      if (low > 0 || high < 0) last = -1;
+      continue;
+    }
+    first = std::max(first, std::min(low / way, high / way));
+    last = std::min(last, std::max(low / way, high / way));
+  }
+  return {first, last};
+}
+
+// Ends first, then the inside of each edge cut evenly, as far as it lies in the region.
+void pack_edges(const std::vector<std::pair<Vec3d, Vec3d>>& edges, double d, const Domain& region, Packing& packing) {
   const double radius = edge_distance * d * (1 - 1e-9);
   for (const auto& [a, b] : edges) {
     packing.try_add(a, radius);
@@ -104,8 +120,10 @@ void pack_edges(const std::vector<std::pair<Vec3d, Vec3d>>& edges, double d, Pac
   }
   for (const auto& [a, b] : edges) {
     const double ratio = length(b - a) / d;
-    const int n = static_cast<int>(ratio > 1.2 * std::round(ratio) ? std::ceil(ratio) : std::round(ratio));
-    for (int k = 1; k < n; ++k) packing.try_add(a + static_cast<double>(k) / n * (b - a), radius);
+    const double n = ratio > 1.2 * std::round(ratio) ? std::ceil(ratio) : std::round(ratio);
+    const auto [first, last] = inside_part(a, b, region);
+    const double end = std::min(n - 1, last * n);
+    for (double k = std::max(1.0, std::ceil(first * n)); k <= end; ++k) packing.try_add(a + k / n * (b - a), radius);
   }
 }
 
@@ -128,7 +146,7 @@ std::vector<Vec3d> sample_mesh(const TriangleMesh& mesh, double spacing, const D
   }
   shuffle(candidates);
   Packing packing(spacing, domain);
-  pack_edges(sharp_edges(mesh, chosen), spacing, packing);
+  pack_edges(sharp_edges(mesh, chosen), spacing, reachable, packing);
   for (const Vec3d& p : candidates) packing.try_add(p, face_distance * spacing);
   if (packing.points.empty() && !chosen.empty() && !candidates.empty()) packing.points.push_back(candidates.front());
   return std::move(packing.points);

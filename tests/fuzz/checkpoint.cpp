@@ -41,7 +41,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Checkpoint checkpoint = read_checkpoint(bytes, "fuzz");
     for (const Vec3& x : checkpoint.fields.position) test::require(x.x - x.x == 0 && x.y - x.y == 0 && x.z - x.z == 0);
     test::require(checkpoint.step >= 0 && checkpoint.time >= 0);
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    test::check_sentence(error.what());
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "tests/io/file_size_limit.h"
 #include "tests/io/temporary_folder.h"
 
 using namespace curlew;
@@ -93,6 +94,35 @@ TEST_CASE("an ffmpeg that fails at the end is an error too") {
   CHECK(input_error([&] { video.finish(); }) ==
         "cannot write the video " + (folder / "a.mp4") + ": ffmpeg gave up: it gave no reason (exit status 1)");
   CHECK(folder.contents() == std::vector<std::string>{"bin", "bin/ffmpeg"});
+}
+
+TEST_CASE("a film that does not fit on the disk is an error, although ffmpeg 5 would end well") {
+  if (!video_available()) {
+    WARN("no ffmpeg here: not tested");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string said = input_error([&] {
+    const FileSizeLimit limit(1000);  // ffmpeg inherits it
+    VideoWriter video(folder / "a.mp4", 64, 48, 25);
+    for (int i = 0; i < 5; ++i) video.write(grey(64, 48, 50 * i));
+    video.finish();
+  });
+  CHECK(said.starts_with("cannot write the video " + (folder / "a.mp4") + ": ffmpeg gave up: "));
+  CHECK(said.ends_with("File too large"));
+  CHECK(folder.contents().empty());
+}
+
+TEST_CASE("an ffmpeg left over from a run that was killed does not write into the next film") {
+  const TemporaryFolder folder;
+  put_program(folder, "for last; do :; done; cat >/dev/null; echo film >\"${last#file:}\"");
+  const Path path(folder / "bin:" + std::getenv("PATH"));
+  std::ofstream left_over(folder / "a.mp4.part");
+  VideoWriter video(folder / "a.mp4", 64, 48, 25);
+  video.write(grey(64, 48, 0));
+  video.finish();
+  left_over << "of another film" << std::flush;
+  CHECK(file_text(folder / "a.mp4") == "film\n");
 }
 
 TEST_CASE("a video given up leaves nothing") {

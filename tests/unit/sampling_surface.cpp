@@ -104,6 +104,17 @@ TEST_CASE("meshes are sampled evenly, their sharp edges first", "[sampling]") {
   }
 }
 
+TEST_CASE("edges that leave the domain are sampled within it only", "[sampling]") {
+  Domain domain;
+  domain.max = {1, 1, 1};
+  TriangleMesh needle;  // of so little area that its size is no reason to refuse it
+  needle.vertices = {{-1e6, 0.5, 0.5}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.501}, {0.5, 0.501, 0.5}};
+  needle.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto samples = sample_surface(mesh_of(needle), 1e-2, 3, domain);  // an edge is 1e8 samples long
+  CHECK(samples.size() > 40);
+  CHECK(samples.size() < 200);
+}
+
 TEST_CASE("planes are sampled inside the domain", "[sampling]") {
   Domain domain;
   domain.min = {0, 0, 0};
