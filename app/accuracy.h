@@ -41,6 +41,7 @@ void taylor_vortex_accuracy(const BenchOptions& options);
 void spinning_drop_accuracy(const BenchOptions& options);
 // Long; with every turbulence method, or with those of --methods.
 void cavity_accuracy(const BenchOptions& options);
+void check_cavity_nu(const BenchOptions& options);  // throws InputError where there is no reference
 void taylor_green_3d_accuracy(const BenchOptions& options);
 
 int accuracy_bench(const BenchOptions& options);

@@ -274,6 +274,10 @@ std::array<double, 2> window_of(int reynolds) {
 
 }  // namespace
 
+void check_cavity_nu(const BenchOptions& options) {
+  for (const std::string& nu : options.nu) reference_of(nu);
+}
+
 void cavity_accuracy(const BenchOptions& options) {
   const std::vector<std::string> nus = options.nu.empty() ? std::vector<std::string>{"0.001", "0.0001"} : options.nu;
   std::vector<CavityCase> cases;

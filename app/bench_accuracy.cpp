@@ -60,6 +60,7 @@ void check_read(const AccuracyCase& c, const BenchOptions& options) {
   };
   if (!options.methods.empty() && !c.takes_methods) refuse("--methods");
   if (!options.nu.empty() && !c.takes_nu) refuse("--nu");
+  if (c.takes_nu) check_cavity_nu(options);
 }
 
 void print_row(const std::vector<std::string>& cells) {
