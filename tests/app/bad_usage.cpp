@@ -328,8 +328,8 @@ TEST_CASE("the program refuses every scene of tests/bad with its sentence") {
     const std::size_t name = said.find(file), mesh = said.find(": ", name + file.size() + 2);
     std::string expected = said;
     expected.replace(name, file.size(), path);
-    for (const char* other :
-         {"nowhere.obj", "empty.json: has", "open_box.obj", "../../assets/meshes/rock.obj", "heights_ragged.csv", "heights_word.csv"}) {
+    for (const char* other : {"nowhere.obj", "empty.json: has", "open_box.obj", "../../assets/meshes/rock.obj",
+                              "heights_ragged.csv", "heights_word.csv"}) {
       const std::size_t at = said.find(other, mesh == std::string::npos ? 0 : name + file.size());
       if (at != std::string::npos) expected.insert(at + path.size() - file.size(), "{bad}/");
     }
