@@ -64,18 +64,20 @@ std::string text(const char* format, double a, double b = 0, double c = 0) {
   return line;
 }
 
-const char* advice(const World& world, std::string_view pass) {
+const char* advice(const World& world) {
   const Parameters& p = world.parameters();
+  const double d = world.scene.spacing();
   if (p.time.fixed_step > 0) return "use a smaller time.fixed_step";
   if (has_free_model(world)) return "switch energy.guard on, or make the turbulence models weaker";
-  return pass == "viscosity" ? "lower time.viscosity_factor" : "lower time.cfl or raise pressure.max_iterations";
+  if (p.viscosity.nu * world.dt > 0.25 * d * d) return "lower time.viscosity_factor";
+  return "lower time.cfl or raise pressure.max_iterations";
 }
 
 [[noreturn]] void report(const World& world, std::string_view pass, std::size_t particle, const std::string& what) {
   const std::uint32_t id = world.fields.id[particle];
   throw DivergedError("the simulation diverged at step " + std::to_string(world.step + 1) + ", time " +
                           number_text(world.time) + " s: after pass " + std::string(pass) + " particle " +
-                          std::to_string(id) + " " + what + "; " + advice(world, pass),
+                          std::to_string(id) + " " + what + "; " + advice(world),
                       std::string(pass), id);
 }
 

@@ -44,6 +44,43 @@ double largest_relative_speed(const World& world) {
   return std::sqrt(std::max(0.0, particle_max(world.count, square).value));
 }
 
+// (a . grad) of a field at a particle from its neighbours, uncorrected and without walls.
+template <class Images>
+Vec3 change_along(const World& world, const Array<Vec3>& field, std::size_t i, Vec3 a, const Images& images) {
+  const Vec3 here = field[i];
+  VectorSum change;
+  for_pairs(world.neighbours, world.fields.position.data(), i, images, [&](const Pairs& p) {
+    const Vec8 other = gather(field.data(), p.j);
+    const f8 along = world.kernel.slope(p.r2) * (a.x * p.x + a.y * p.y + a.z * p.z);
+    change.add(along * (other.x - here.x), along * (other.y - here.y), along * (other.z - here.z));
+  });
+  return world.mass / world.fields.density[i] * change.total();
+}
+
+// Particles that shifting (acceleration) and the density solve (displacement) move take on what the flow is at their
+// new places, unless they are at a surface.
+void carry_along(World& world, float full) {
+  Fields& f = world.fields;
+  const auto carry = [&](Array<Vec3>& field, auto&& change) {
+    with_images(world.cells, [&](auto images) {
+      parallel_for(world.count, [&](std::size_t i) {
+        f.packed[i] = field[i];
+        if (f.density[i] >= full) f.packed[i] += change(i, f.acceleration[i] + f.displacement[i], images);
+      });
+    });
+    std::swap(field, f.packed);
+  };
+  for (Array<Vec3>* field : {&f.microrotation, &f.predicted_vorticity}) {
+    if (field->empty()) continue;
+    count_sweep(world);
+    carry(*field,
+          [&](std::size_t i, Vec3 move, const auto& images) { return change_along(world, *field, i, move, images); });
+  }
+  count_sweep(world);
+  carry(f.velocity,
+        [&](std::size_t i, Vec3 move, const auto& images) { return velocity_gradient(world, i, images).along(move); });
+}
+
 }  // namespace
 
 void gravity(World& world) {
@@ -138,7 +175,6 @@ void xsph(World& world) {
 
 void shift_particles(World& world) {
   count_sweep(world);
-  count_sweep(world);
   Fields& f = world.fields;
   const double h = world.kernel.h();
   // Shifting is a diffusion of particles: beyond 0.2 h^2 a step it overshoots.
@@ -168,16 +204,9 @@ void shift_particles(World& world) {
       const float distance = length(move);
       f.acceleration[i] = distance > farthest ? (farthest / distance) * move : move;
     });
-    parallel_for(world.count, [&](std::size_t i) {
-      const Vec3 v = f.velocity[i];
-      const bool is_full = f.density[i] >= full;
-      f.packed[i] = is_full ? v + velocity_gradient(world, i, images).along(f.acceleration[i] + f.displacement[i]) : v;
-    });
   });
-  parallel_for(world.count, [&](std::size_t i) {
-    f.position[i] += f.acceleration[i];
-    f.velocity[i] = f.packed[i];
-  });
+  carry_along(world, full);
+  parallel_for(world.count, [&](std::size_t i) { f.position[i] += f.acceleration[i]; });
 }
 
 void advect(World& world) {

@@ -216,7 +216,7 @@ const std::vector<Row> checkpoints = {
     {"run --resume good.curlew --set time.clf=1",
      R"(--set: there is no parameter "time.clf"; did you mean "time.cfl"?)"},
     {"run --resume begun/checkpoints/000001.curlew --columns full",
-     R"(cannot continue begun/stats.csv: column 30 of its header is "state_hash", this run writes "ms_vorticity"; choose another --out)"},
+     R"(cannot continue begun/stats.csv: column 31 of its header is "state_hash", this run writes "ms_vorticity"; choose another --out)"},
 };
 
 // What the rows speak of, and nothing else.

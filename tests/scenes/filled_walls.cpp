@@ -52,12 +52,18 @@ TEST_CASE("a lid drives a vortex in a cavity at Re 100", "[filled]") {
   for (int face = 0; face < 4; ++face) scene.domain.walls[face].kind = WallKind::no_slip;
   scene.domain.walls[3].velocity = {1, 0, 0};
   scene.parameters.viscosity.nu = 0.01;
-  scene.parameters.pressure.divergence_tolerance = 1e-5;
+  scene.parameters.pressure.divergence_tolerance = 1e-4;
   Run run(scene);
-  run.simulate(10);
-  // u along x = 0.5, Ghia, Ghia & Shin (1982), Table I; 30 particles across see it 0.05 weaker.
-  CHECK(flow_at(run.world, 0.5, 0.2813) == Approx(-0.15662).margin(0.08));
-  CHECK(flow_at(run.world, 0.5, 0.4531) == Approx(-0.21090).margin(0.08));
-  CHECK(flow_at(run.world, 0.5, 0.7344) == Approx(0.00332).margin(0.08));
+  run.simulate(8);
+  // u along x = 0.5, Ghia, Ghia & Shin (1982), Table I; 30 particles across see it up to 0.06 weaker. A mean over 2 s:
+  // at one moment disorder is as large.
+  constexpr double heights[] = {0.2813, 0.4531, 0.7344}, exact[] = {-0.15662, -0.21090, 0.00332};
+  double mean[3] = {};
+  const double begin = run.world.time;
+  while (run.world.time < 10) {
+    run.take_steps(1);
+    for (int k = 0; k < 3; ++k) mean[k] += run.world.dt * flow_at(run.world, 0.5, heights[k]);
+  }
+  for (int k = 0; k < 3; ++k) CHECK(mean[k] / (run.world.time - begin) == Approx(exact[k]).margin(0.07));
   CHECK(odd_share(run.world) < 0.02);
 }
