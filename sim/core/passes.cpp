@@ -126,8 +126,8 @@ constexpr Pass passes[] = {
      .run = density_solve,
      .changes_velocity = true},
     {.name = "shift",
-     .reads = {position, velocity, density, boundary_gradient, displacement, microrotation, predicted_vorticity},
-     .writes = {position, velocity, acceleration, packed, microrotation, predicted_vorticity},
+     .reads = {position, velocity, density, boundary_gradient, displacement, microrotation},
+     .writes = {position, velocity, acceleration, packed, microrotation},
      .wanted = shifts_particles,
      .run = shift_particles},
     {.name = "advect",
@@ -200,7 +200,6 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
     unused = unused | FieldSet{model_acceleration};
   }
   if (!is_micropolar(world)) unused = unused | FieldSet{microrotation};
-  if (!refines_vorticity(world)) unused = unused | FieldSet{predicted_vorticity};
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
   const bool curls = confines_vorticity(world) || is_micropolar(world);
