@@ -58,8 +58,8 @@ Vec3 change_along(const World& world, const Array<Vec3>& field, std::size_t i, V
 }
 
 // Particles that shifting (acceleration) and the density solve (displacement) move take on what the flow is at their
-// new places, unless they are at a surface. Not the predicted vorticity: refinement would then give back more than there
-// was (3D Taylor-Green vortex, 16^3 particles, t = 1: 0.1277 J/kg of 0.1250).
+// new places, unless they are at a surface. Not the predicted vorticity: refinement would then give back more than
+// there was (3D Taylor-Green vortex, 16^3 particles, t = 1: 0.1277 J/kg of 0.1250).
 void carry_along(World& world, float full) {
   Fields& f = world.fields;
   const auto carry = [&](Array<Vec3>& field, auto&& change) {
