@@ -42,8 +42,12 @@ namespace curlew {
   FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")          \
   FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")      \
   FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \
+  FIELD(corrected_diagonal, float, "kg^2/m^8", scratch,                                                               \
+        "The diagonal of the pressure operator with the kernel-gradient correction.")                                 \
   FIELD(displacement, Vec3, "m", scratch,                                                                             \
         "Moves that are not velocity: density correction and shifting in filled domains.")                            \
+  FIELD(pressure_acceleration, Vec3, "m/s^2", scratch,                                                                \
+        "What the divergence solve did to the velocity, where it is to act twice.")                                   \
   FIELD(model_velocity, Vec3, "m/s", scratch,                                                                         \
         "What vorticity refinement adds to the velocity, where the energy guard may take it back.")                   \
   FIELD(model_acceleration, Vec3, "m/s^2", scratch,                                                                   \

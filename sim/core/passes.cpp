@@ -23,6 +23,9 @@ bool has_boundary(const World& w) { return w.has_boundary(); }
 bool solves_divergence(const World& w) { return w.parameters().pressure.max_divergence_iterations > 0; }
 bool is_filled(const World& w) { return w.parameters().pressure.two_sided; }
 bool shifts_particles(const World& w) { return is_filled(w) && w.parameters().pressure.shifting > 0; }
+bool conserves_energy(const World& w) {
+  return is_filled(w) && solves_divergence(w) && w.parameters().pressure.conserving;
+}
 bool has_open_face(const World& w) {
   const Domain& domain = w.scene.domain;
   for (int axis = 0; axis < w.scene.dimension; ++axis) {
@@ -48,7 +51,7 @@ bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 constexpr FieldSet particle_state = FieldSet::kept();
 constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction, no_slip_gradient};
 constexpr FieldSet solver_space{packed, acceleration, source, iterate};
-constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed};
+constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed, corrected_diagonal};
 constexpr FieldSet solver_input =
     FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space | filled_fields;
 
@@ -62,7 +65,7 @@ constexpr Pass passes[] = {
     // At the positions that the last step left, with the step that it took:
     {.name = "divergence_solve",
      .reads = solver_input | FieldSet{divergence_stiffness},
-     .writes = FieldSet{velocity, divergence_stiffness} | solver_space,
+     .writes = FieldSet{velocity, divergence_stiffness, pressure_acceleration} | solver_space,
      .wanted = solves_divergence,
      .run = divergence_solve,
      .changes_velocity = true},
@@ -118,6 +121,12 @@ constexpr Pass passes[] = {
      .writes = {predicted_vorticity},
      .wanted = refines_vorticity,
      .run = predict_vorticity},
+    {.name = "midpoint",
+     .reads = {velocity, pressure_acceleration},
+     .writes = {velocity},
+     .wanted = conserves_energy,
+     .run = midpoint_velocity,
+     .changes_velocity = true},
     // Constant density at the positions to come:
     {.name = "density_solve",
      .reads = solver_input | FieldSet{density_stiffness},
@@ -135,6 +144,12 @@ constexpr Pass passes[] = {
      .writes = {position, velocity},
      .wanted = always,
      .run = advect},
+    {.name = "reflect",
+     .reads = {velocity, pressure_acceleration},
+     .writes = {velocity},
+     .wanted = conserves_energy,
+     .run = reflect_velocity,
+     .changes_velocity = true},
     {.name = "energy_account",
      .reads = {velocity, microrotation},
      .writes = {},
@@ -165,8 +180,8 @@ constexpr Pass passes[] = {
      .wanted = always,
      .run = compute_density},
     {.name = "gradient_correction",
-     .reads = {position, density},
-     .writes = {correction_diagonal, correction_mixed},
+     .reads = {position, density, boundary_gradient},
+     .writes = {correction_diagonal, correction_mixed, corrected_diagonal},
      .wanted = is_filled,
      .run = gradient_correction},
     // Only for those who ask:
@@ -193,6 +208,7 @@ bool advances(const Pass& pass) {
 FieldSet unused_fields(const World& world, FieldSet demanded) {
   FieldSet unused;
   if (!is_filled(world)) unused = unused | filled_fields;
+  if (!conserves_energy(world)) unused = unused | FieldSet{pressure_acceleration, corrected_diagonal};
   if (!world.has_boundary()) unused = unused | boundary_fields;
   if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
   if (!guards_energy(world) || !refines_vorticity(world)) unused = unused | FieldSet{model_velocity};

@@ -24,6 +24,8 @@ constexpr Name names[] = {
     {"density_solve", "loss_density_solve", false, false},
     {"shift", "loss_shift", false, false},
     {"advect", "loss_advect", false, false},
+    {"midpoint", "loss_midpoint", false, false},
+    {"reflect", "loss_reflect", false, false},
     {"outflow", "loss_outflow", false, false},
 };
 constexpr std::string_view rotation = "work_spin";

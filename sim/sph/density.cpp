@@ -52,6 +52,29 @@ void boundary_sums(World& world) {
   }
 }
 
+// |sum m B grad W|^2 + sum |m B grad W|^2.
+template <class Images>
+float corrected_diagonal(const World& world, std::size_t i, const SymmetricMatrix& b, const Images& images) {
+  const Vec3 d = b.diagonal, e = b.mixed;
+  VectorSum total;
+  f8 squared{};
+  const auto add = [&](f8 slope, const Pairs& p) {
+    const f8 x = slope * (d.x * p.x + e.z * p.y + e.y * p.z), y = slope * (e.z * p.x + d.y * p.y + e.x * p.z),
+             z = slope * (e.y * p.x + e.x * p.y + d.z * p.z);
+    total.add(x, y, z);
+    squared += x * x + y * y + z * z;
+  };
+  for_pairs(world.neighbours, world.fields.position.data(), i, images,
+            [&](const Pairs& p) { add(world.kernel.slope(p.r2), p); });
+  for_reflected_pairs(world, i, images,
+                      [&](const Pairs& p, f8 weight, const Reflection&) { add(weight * world.kernel.slope(p.r2), p); });
+  Vec3 sums = world.mass * total.total();
+  if (world.bodies.count() > 0) {
+    sums += world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
+  }
+  return dot(sums, sums) + world.mass * world.mass * sum(squared);
+}
+
 void gradient_correction(World& world) {
   count_sweep(world);
   Fields& f = world.fields;
@@ -77,6 +100,7 @@ void gradient_correction(World& world) {
                                     .matrix;
       f.correction_diagonal[i] = b.diagonal;
       f.correction_mixed[i] = b.mixed;
+      if (!f.corrected_diagonal.empty()) f.corrected_diagonal[i] = corrected_diagonal(world, i, b, images);
     });
   });
 }

@@ -22,7 +22,8 @@ struct Solve {
   Array<float>& stiffness;
   double tolerance;  // mean compression, as a fraction
   int max_iterations;
-  bool corrected = false;
+  bool corrected = false;  // the divergence
+  bool adjoint = false;    // and the force with it
 };
 
 // a(k) for the iterate in packed.w, into the field acceleration.
@@ -43,6 +44,43 @@ void accelerate(World& world) {
       Vec3 a = -world.mass * Vec3{sum(x), sum(y), sum(z)};
       if (boundary) a += -k * f.boundary_gradient[i];
       f.acceleration[i] = a;
+    });
+  });
+}
+
+// What bodies add to the density's gradient: all that walls do not.
+Vec3 body_gradient(const World& world, std::size_t i) {
+  if (world.bodies.count() == 0) return {};
+  return world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
+}
+
+// a(k) with the kernel-gradient correction: a_i = -sum m (k_i B_i + k_j B_j) grad W_ij, the adjoint of the
+// corrected density rate. Only then does the solve project: it takes the least from the velocity that leaves it free of
+// divergence. With the plain sum for a, it took three times as much from Taylor-Green vortices.
+void accelerate_corrected(World& world) {
+  count_sweep(world);
+  Fields& f = world.fields;
+  with_images(world.cells, [&](auto images) {
+    parallel_for(world.count, [&](std::size_t i) {
+      const float k = f.packed[i].w;
+      const Vec3 b = k * f.correction_diagonal[i], c = k * f.correction_mixed[i];
+      VectorSum push;
+      const auto add = [&](f8 slope, f8 pressure, const Pairs& p, Vec3 mixed_sign) {
+        const Vec8 d = gather(f.correction_diagonal.data(), p.j), e = gather(f.correction_mixed.data(), p.j);
+        const f8 xx = b.x + pressure * d.x, yy = b.y + pressure * d.y, zz = b.z + pressure * d.z;
+        const f8 yz = c.x + mixed_sign.x * pressure * e.x, zx = c.y + mixed_sign.y * pressure * e.y,
+                 xy = c.z + mixed_sign.z * pressure * e.z;
+        push.add(slope * (xx * p.x + xy * p.y + zx * p.z), slope * (xy * p.x + yy * p.y + yz * p.z),
+                 slope * (zx * p.x + yz * p.y + zz * p.z));
+      };
+      for_pairs(world.neighbours, f.packed.data(), i, images, [&](const Pairs& p) {
+        add(world.kernel.slope(p.r2), p.w, p, {1, 1, 1});
+      });
+      for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
+        const Vec3 s = r.sign;
+        add(weight * world.kernel.slope(p.r2), gather(f.packed.data(), p.j).w, p, {s.y * s.z, s.z * s.x, s.x * s.y});
+      });
+      f.acceleration[i] = -world.mass * push.total() - k * body_gradient(world, i);
     });
   });
 }
@@ -77,10 +115,7 @@ float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size
     add(weight * world.kernel.slope(p.r2), reflect(gather(v.data(), p.j), r.sign, {}), p);
   });
   const float fluid = world.mass * sum(rate);
-  if (world.bodies.count() == 0) return fluid;
-  // What bodies add is all that walls do not.
-  const Vec3 bodies = world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
-  return fluid + dot(own, bodies);
+  return fluid + dot(own, body_gradient(world, i));
 }
 
 struct Progress {
@@ -129,26 +164,28 @@ void scale_warm_start(World& world) {
 
 // One sweep: the residual at the iterate in packed.w, and the relaxed Jacobi move from there. Leaves the iterate in
 // `stiffness` and the moved value in packed.w.
-Progress relax(World& world, Array<float>& stiffness, float relaxation, bool corrected) {
+Progress relax(World& world, const Solve& solve, float relaxation) {
   count_sweep(world);
   Fields& f = world.fields;
   const bool boundary = world.has_boundary();
   const bool two_sided = world.parameters().pressure.two_sided;
   const float full = 0.9f * world.rest_density();
+  const Array<float>& diagonals = solve.adjoint ? f.corrected_diagonal : f.diagonal;
   Progress total;
   with_images(world.cells, [&](auto images) {
     total = ordered_sum<Progress>(world.count, [&](std::size_t begin, std::size_t end) {
       Progress part;
       for (std::size_t i = begin; i < end; ++i) {
         const float k = f.packed[i].w, source = f.source[i];
-        stiffness[i] = k;
+        solve.stiffness[i] = k;
         if (source == no_part) continue;
-        const float residual = source + (corrected ? corrected_density_rate(world, f.acceleration, i, images)
-                                                   : density_rate(world, f.acceleration, i, images, boundary));
+        const float residual = source + (solve.corrected ? corrected_density_rate(world, f.acceleration, i, images)
+                                                         : density_rate(world, f.acceleration, i, images, boundary));
         const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
-        const float moved = std::max(lowest, k + relaxation * residual / f.diagonal[i]);
+        const float diagonal = diagonals[i];
+        const float moved = std::max(lowest, k + relaxation * residual / diagonal);
         part.error += std::max(0.0f, residual);
-        part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * f.diagonal[i]));
+        part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * diagonal));
         part.momentum += double{residual} * (moved - f.iterate[i]);
         f.packed[i].w = moved;
       }
@@ -176,6 +213,13 @@ void accelerate_particles(World& world) {
   parallel_for(world.count, [&](std::size_t i) { world.fields.velocity[i] += dt * world.fields.acceleration[i]; });
 }
 
+// v += share dt a, a the acceleration by the divergence solve of this step.
+void push_again(World& world, double share) {
+  Fields& f = world.fields;
+  const auto time = static_cast<float>(share * world.dt);
+  parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += time * f.pressure_acceleration[i]; });
+}
+
 // Finds k for the given source; leaves it in solve.stiffness and a(k) in the field acceleration. Returns the number of
 // iterations and the mean compression that is left.
 struct Outcome {
@@ -199,9 +243,13 @@ Outcome solve_pressure(World& world, const Solve& solve) {
   double t = 1, least = INFINITY;
   bool more = true;
   while (more && outcome.iterations < solve.max_iterations) {
-    accelerate(world);
+    if (solve.adjoint) {
+      accelerate_corrected(world);
+    } else {
+      accelerate(world);
+    }
     if (p.warm_start && outcome.iterations == 0) scale_warm_start(world);
-    const Progress progress = relax(world, solve.stiffness, relaxation, solve.corrected);
+    const Progress progress = relax(world, solve, relaxation);
     outcome.error = progress.error * scale;
     ++outcome.iterations;
     // Both halves of "r <= 0, k >= 0, one of the two zero". With the first alone a warm start that pushes too hard
@@ -282,9 +330,12 @@ void divergence_solve(World& world) {
     });
   });
   world.report.divergence_skipped = skipped / static_cast<double>(world.count);
-  const auto outcome =
-      solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance, p.max_divergence_iterations, corrected});
+  const auto outcome = solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance,
+                                              p.max_divergence_iterations, corrected, corrected && p.conserving});
   accelerate_particles(world);
+  if (!f.pressure_acceleration.empty()) {
+    parallel_for(world.count, [&](std::size_t i) { f.pressure_acceleration[i] = f.acceleration[i]; });
+  }
   world.report.divergence_iterations = outcome.iterations;
   world.report.divergence_error = outcome.error;
 }
@@ -329,11 +380,18 @@ void density_solve(World& world) {
   world.report.density_error_avg = outcome.error;
 }
 
+void midpoint_velocity(World& world) { push_again(world, 0.5 * (1 + world.parameters().pressure.reflection)); }
+
+void reflect_velocity(World& world) { push_again(world, 0.5 * (world.parameters().pressure.reflection - 1)); }
+
 void total_pressure(World& world) {
   Fields& f = world.fields;
+  const PressureParameters& p = world.parameters().pressure;
   const auto seen = static_cast<float>(gradient_share(world));
+  // What the divergence solve does acts 1 + theta times in a step.
+  const float acts = p.two_sided && p.conserving ? 1 + static_cast<float>(p.reflection) : 1.0f;
   parallel_for(world.count, [&](std::size_t i) {
-    f.pressure[i] = seen * f.density[i] * f.density[i] * (f.density_stiffness[i] + f.divergence_stiffness[i]);
+    f.pressure[i] = seen * f.density[i] * f.density[i] * (f.density_stiffness[i] + acts * f.divergence_stiffness[i]);
   });
 }
 
