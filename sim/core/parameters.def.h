@@ -15,39 +15,36 @@
        "Smoothing length over particle spacing; the kernel reaches 2h. Bender & Koschier 2017 use 1.") \
   REAL(rest_density, 1000.0, 100.0, 2000.0, 1e-3, 1e5, "kg/m^3", "rho_0", rebuild, "Density of the fluid at rest.")
 
-#define CURLEW_PRESSURE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                          \
-  REAL(density_tolerance, 1e-4, 1e-5, 1e-2, 1e-7, 1.0, "1", "eta_rho", live,                                           \
-       "Mean compression at which the density solve stops, as a fraction (Bender & Koschier 2017, section 3.3; "       \
-       "0.01 % in Bender et al. 2018, section 7).")                                                                    \
-  REAL(divergence_tolerance, 1e-3, 1e-4, 1e-1, 1e-7, 1.0, "1", "eta_div", live,                                        \
-       "Mean compression rate at which the divergence solve stops, as density change in one step (Bender et al. "      \
-       "2018, section 7: 0.1 %).")                                                                                     \
-  COUNT(max_iterations, 200, 10, 500, 1, 100000, "1", "", live,                                                        \
-        "Most iterations of the density solve in a step; "                                                             \
-        "reaching it is counted in limit_hits.")                                                                       \
-  COUNT(max_divergence_iterations, 200, 10, 500, 0, 100000, "1", "", live,                                             \
-        "Most iterations of the divergence solve in a step; 0 switches the solve off.")                                \
-  COUNT(min_iterations, 1, 1, 20, 1, 1000, "1", "", live, "Fewest iterations of each solve in a step.")                \
-  FLAG(warm_start, true, "", live,                                                                                     \
-       "Begin each solve with the last step's pressure (Bender & Koschier 2017, "                                      \
-       "section 3.5).")                                                                                                \
-  FLAG(two_sided, false, "", live,                                                                                     \
-       "Both signs of pressure where the neighbourhood is full, and density measured against its mean: for domains "   \
-       "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                              \
-  REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                             \
-       "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")     \
-  FLAG(                                                                                                                \
-      conserving, false, "", live,                                                                                     \
-      "Where pressure is two-sided: its force as the adjoint of the corrected divergence, and a step of second order " \
-      "for the pressure. Keeps the energy of vortices that the plain step takes; refinement on top may give too "      \
-      "much.")                                                                                                         \
-  REAL(                                                                                                                \
-      reflection, 0.8, 0.0, 1.0, 0.0, 1.0, "1", "theta", live,                                                         \
-      "With pressure.conserving: how much of the divergence solve's push acts a second time after the particles have " \
-      "moved. 0 takes energy at every step, 1 takes none but lets pressures flicker (Zehnder et al. 2018).")           \
-  CHOICE(solver, accelerated, "", live,                                                                                \
-         "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum "  \
-         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.",                                 \
+#define CURLEW_PRESSURE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                         \
+  REAL(density_tolerance, 1e-4, 1e-5, 1e-2, 1e-7, 1.0, "1", "eta_rho", live,                                          \
+       "Mean compression at which the density solve stops, as a fraction (Bender & Koschier 2017, section 3.3; "      \
+       "0.01 % in Bender et al. 2018, section 7).")                                                                   \
+  REAL(divergence_tolerance, 1e-3, 1e-4, 1e-1, 1e-7, 1.0, "1", "eta_div", live,                                       \
+       "Mean compression rate at which the divergence solve stops, as density change in one step (Bender et al. "     \
+       "2018, section 7: 0.1 %).")                                                                                    \
+  COUNT(max_iterations, 200, 10, 500, 1, 100000, "1", "", live,                                                       \
+        "Most iterations of the density solve in a step; "                                                            \
+        "reaching it is counted in limit_hits.")                                                                      \
+  COUNT(max_divergence_iterations, 200, 10, 500, 0, 100000, "1", "", live,                                            \
+        "Most iterations of the divergence solve in a step; 0 switches the solve off.")                               \
+  COUNT(min_iterations, 1, 1, 20, 1, 1000, "1", "", live, "Fewest iterations of each solve in a step.")               \
+  FLAG(warm_start, true, "", live,                                                                                    \
+       "Begin each solve with the last step's pressure (Bender & Koschier 2017, "                                     \
+       "section 3.5).")                                                                                               \
+  FLAG(two_sided, false, "", live,                                                                                    \
+       "Both signs of pressure where the neighbourhood is full, and density measured against its mean: for domains "  \
+       "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                             \
+  REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                            \
+       "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")    \
+  FLAG(conserving, false, "", live,                                                                                   \
+       "Where pressure is two-sided: its force as the adjoint of the corrected divergence, and a second-order step "  \
+       "for it. Keeps the energy of vortices that the plain step takes.")                                             \
+  REAL(reflection, 0.8, 0.0, 1.0, 0.0, 1.0, "1", "theta", live,                                                       \
+       "With pressure.conserving: how much of the divergence solve's push acts a second time, after the particles "   \
+       "have moved. 0 takes energy at every step, 1 takes none but lets pressures flicker (Zehnder et al. 2018).")    \
+  CHOICE(solver, accelerated, "", live,                                                                               \
+         "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum " \
+         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.",                                \
          jacobi, accelerated)
 
 #define CURLEW_VISCOSITY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \
