@@ -56,7 +56,7 @@ Vec3 body_gradient(const World& world, std::size_t i) {
 
 // a(k) with the kernel-gradient correction: a_i = -sum m (k_i B_i + k_j B_j) grad W_ij, the adjoint of the
 // corrected density rate. Only then does the solve project: it takes the least from the velocity that leaves it free of
-// divergence. With the plain sum for a, it took three times as much from Taylor-Green vortices.
+// divergence. With the plain sum for a, it took 2.4 times as much from Taylor-Green vortices.
 void accelerate_corrected(World& world) {
   count_sweep(world);
   Fields& f = world.fields;
