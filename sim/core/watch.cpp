@@ -44,7 +44,7 @@ bool is_driven(const World& world) {
 Largest fastest(const World& world) {
   const Array<Vec3>& v = world.fields.velocity;
   Largest found = particle_max(world.count, [&](std::size_t i) { return double{dot(v[i], v[i])}; });
-  found.value = std::sqrt(found.value);
+  found.value = world.count > 0 ? std::sqrt(found.value) : 0;
   return found;
 }
 
