@@ -13,7 +13,7 @@ namespace {
 using namespace svg;
 
 // Layout, in pixels.
-constexpr double side = 470, margin = 28, head = 64, panel_head = 34, gap = 36, note_line = 22, note_size = 14;
+constexpr double side = 470, margin = 28, head = 64, panel_head = 34, gap = 36, note_size = 14;
 constexpr const char *negative_colour = "#2b6a99", *positive_colour = "#c1440e";
 
 // An edge of the grid, which a line crosses once at most: 2 node, and 1 more for the one upwards.
@@ -110,23 +110,14 @@ std::string svg_text(const ContourPlot& plot) {
   const double panels = static_cast<double>(plot.panels.size());
   const double width =
       std::max(2 * margin + panels * side + (panels - 1) * gap, 2 * margin + text_width(plot.title, 22));
-  double height = head + panel_head, left = margin;
+  constexpr double height = head + panel_head;
+  double left = margin;
   std::string body;
   for (const ContourPanel& panel : plot.panels) {
     body += panel_text(panel, plot.levels, left, height);
     left += side + gap;
   }
-  height += side + 12;
-  for (const std::string& note : plot.notes) {
-    for (const std::string& line : wrapped(note, 0.95 * (width - 2 * margin))) {
-      height += note_line;
-      body += text_at(margin, height - 4, line, "start", note_size);
-    }
-  }
-  const std::vector<std::string> small_print = wrapped(plot.command, width - 2 * margin);
-  height += 30 + small_line * static_cast<double>(small_print.size());
-  return begin_picture(width, height) + text_at(margin, 36, plot.title, "start", 20, " font-weight=\"bold\"") + body +
-         small_print_text(small_print, margin, height) + "</svg>\n";
+  return page_text({plot.title, plot.notes, plot.command, width, margin, height + side + 12}, body);
 }
 
 void write_svg(const std::string& file, const ContourPlot& plot) {

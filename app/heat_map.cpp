@@ -12,7 +12,7 @@ using namespace svg;
 
 // Layout, in pixels.
 constexpr double cell_width = 88, cell_height = 42, edge = 28, head = 64, panel_head = 34, foot = 62, gap = 44,
-                 word_size = 14, note_line = 22;
+                 word_size = 14;
 constexpr const char* limit_colour = "#b2182b";
 
 struct Size {
@@ -118,17 +118,7 @@ std::string svg_text(const HeatMap& map) {
     }
     height += panel_head + row_of[row].height + foot;
   }
-  constexpr double width_share = 0.95;  // notes have wider letters than the small print that `wrapped` counts
-  for (const std::string& note : map.notes) {
-    for (const std::string& line : wrapped(note, width_share * (width - 2 * edge))) {
-      height += note_line;
-      body += text_at(edge, height - 4, line, "start", word_size);
-    }
-  }
-  const std::vector<std::string> small_print = wrapped(map.command, width - 2 * edge);
-  height += 30 + small_line * static_cast<double>(small_print.size());
-  return begin_picture(width, height) + text_at(edge, 36, map.title, "start", 20, " font-weight=\"bold\"") + body +
-         small_print_text(small_print, edge, height) + "</svg>\n";
+  return page_text({map.title, map.notes, map.command, width, edge, height}, body);
 }
 
 void write_svg(const std::string& file, const HeatMap& map) {

@@ -78,4 +78,23 @@ std::string small_print_text(const std::vector<std::string>& lines, double left,
   return out;
 }
 
+std::string page_text(const Page& page, const std::string& body) {
+  constexpr double note_line = 22, note_size = 14;
+  constexpr double width_share = 0.95;  // notes have wider letters than the small print that `wrapped` counts
+  const double inner = page.width - 2 * page.margin;
+  double height = page.end_of_body;
+  std::string notes;
+  for (const std::string& note : page.notes) {
+    for (const std::string& line : wrapped(note, width_share * inner)) {
+      height += note_line;
+      notes += text_at(page.margin, height - 4, line, "start", note_size);
+    }
+  }
+  const std::vector<std::string> small_print = wrapped(page.command, inner);
+  height += 30 + small_line * static_cast<double>(small_print.size());
+  return begin_picture(page.width, height) +
+         text_at(page.margin, 36, page.title, "start", 20, " font-weight=\"bold\"") + body + notes +
+         small_print_text(small_print, page.margin, height) + "</svg>\n";
+}
+
 }  // namespace curlew::svg

@@ -31,4 +31,14 @@ std::string begin_picture(double width, double height);
 // The small print at the foot of the picture.
 std::string small_print_text(const std::vector<std::string>& lines, double left, double height);
 
+// What frames the body of a picture: a title above it, notes and the command that made it in small print below.
+struct Page {
+  std::string title;
+  const std::vector<std::string>& notes;
+  const std::string& command;
+  double width = 0, margin = 0;
+  double end_of_body = 0;  // its lower edge
+};
+std::string page_text(const Page& page, const std::string& body);
+
 }  // namespace curlew::svg

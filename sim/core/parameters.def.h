@@ -36,7 +36,7 @@
        "filled with fluid. Off, pressure only pushes, which is right at a free surface.")                             \
   REAL(shifting, 2.0, 0.0, 6.0, 0.0, 50.0, "1", "A", live,                                                            \
        "Strength of particle shifting where pressure is two-sided (Skillen et al. 2013 use 2); 0 skips the pass.")    \
-  FLAG(conserving, false, "", live,                                                                                   \
+  FLAG(conserving, true, "", live,                                                                                    \
        "Where pressure is two-sided: its force as the adjoint of the corrected divergence, and a second-order step "  \
        "for it. Keeps the energy of vortices that the plain step takes.")                                             \
   REAL(reflection, 0.8, 0.0, 1.0, 0.0, 1.0, "1", "theta", live,                                                       \

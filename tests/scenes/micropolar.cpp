@@ -136,6 +136,7 @@ TEST_CASE("the full model with nu_t = -nu is the fluid without spin, to the bit"
 TEST_CASE("the model changes the flow within ten steps, and spins carry energy", "[micropolar]") {
   Scene scene = at_particles_per_metre(bundled("taylor_green"), 32);
   Run plain(scene);
+  scene.parameters.energy.guard = false;  // ten steps with conserving pressure lose nothing that it would let them give
   scene.parameters.micropolar.nu_t = 0.2;
   Run spinning(scene);
   plain.take_steps(10);
