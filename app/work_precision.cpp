@@ -106,8 +106,10 @@ std::vector<PrecisionSetting> usual_settings() {
       {"h/d 1.3", {"sph.h_over_d=1.3"}},
       {"h/d 1.6", {"sph.h_over_d=1.6"}},
       {"h/d 2", {"sph.h_over_d=2"}},
-      {"tolerances / 10", {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-5"}},
-      {"tolerances x 10", {"pressure.density_tolerance=1e-3", "pressure.divergence_tolerance=1e-2"}},
+      {"tolerances / 10",
+       {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-4", "pressure.relative_tolerance=0.03"}},
+      {"tolerances x 10",
+       {"pressure.density_tolerance=1e-3", "pressure.divergence_tolerance=1e-2", "pressure.relative_tolerance=1"}},
       {"steps / 2", {"time.cfl=0.15", "time.acceleration_factor=0.125", "time.viscosity_factor=0.0625"}},
       {"cold start", {"pressure.warm_start=false"}},
   };

@@ -39,12 +39,16 @@
   FLAG(conserving, true, "", live,                                                                                    \
        "Where pressure is two-sided: its force as the adjoint of the corrected divergence, and a second-order step "  \
        "for it. Keeps the energy of vortices that the plain step takes.")                                             \
+  REAL(relative_tolerance, 0.3, 0.01, 1.0, 0.0, 1.0, "1", "", live,                                                   \
+       "With pressure.conserving: share of the compression brought in by forces and motion at which the divergence "  \
+       "solve stops, if pressure.divergence_tolerance has not asked for less.")                                       \
   REAL(reflection, 0.8, 0.0, 1.0, 0.0, 1.0, "1", "theta", live,                                                       \
        "With pressure.conserving: how much of the divergence solve's push acts a second time, after the particles "   \
        "have moved. 0 takes energy at every step, 1 takes none but lets pressures flicker (Zehnder et al. 2018).")    \
   CHOICE(solver, accelerated, "", live,                                                                               \
          "Iteration of both solves: relaxed Jacobi as in Bender & Koschier 2017, or the same with Nesterov momentum " \
-         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps.",                                \
+         "and adaptive restart (O'Donoghue & Candes 2015), which needs fewer sweeps. The divergence solve of "        \
+         "pressure.conserving uses neither, but conjugate gradients.",                                                \
          jacobi, accelerated)
 
 #define CURLEW_VISCOSITY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \

@@ -8,6 +8,7 @@
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
 #include "sim/sph/pressure.h"
+#include "sim/sph/projection.h"
 #include "sim/turbulence/energy_guard.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 #include "sim/turbulence/vorticity_confinement_macklin2013.h"
@@ -70,7 +71,7 @@ constexpr Pass passes[] = {
      .run = divergence_solve,
      .changes_velocity = true},
     {.name = "vorticity_refinement",
-     .reads = {position, velocity, density, neighbour_number, predicted_vorticity},
+     .reads = {position, velocity, density, neighbour_number, predicted_vorticity, boundary_friction},
      .writes = {velocity, lost_vorticity, stream_function, model_velocity},
      .wanted = refines_vorticity,
      .run = refine_vorticity,

@@ -3,13 +3,11 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
-#include "sim/sph/velocity_gradient.h"
+#include "sim/sph/density_rate.h"
+#include "sim/sph/projection.h"
 
 namespace curlew {
 namespace {
-
-// A source that no pressure answers: the particle takes no part in the solve.
-constexpr float no_part = -1e30f;
 
 // Of the Jacobi move: one half converges on any arrangement that was met (Bender & Koschier 2017 use the same). The
 // largest eigenvalue of the scaled operator is about 2.8 in splashing water, and momentum needs the factor times it
@@ -23,7 +21,6 @@ struct Solve {
   double tolerance;  // mean compression, as a fraction
   int max_iterations;
   bool corrected = false;  // the divergence
-  bool adjoint = false;    // and the force with it
 };
 
 // a(k) for the iterate in packed.w, into the field acceleration.
@@ -46,76 +43,6 @@ void accelerate(World& world) {
       f.acceleration[i] = a;
     });
   });
-}
-
-// What bodies add to the density's gradient: all that walls do not.
-Vec3 body_gradient(const World& world, std::size_t i) {
-  if (world.bodies.count() == 0) return {};
-  return world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
-}
-
-// a(k) with the kernel-gradient correction: a_i = -sum m (k_i B_i + k_j B_j) grad W_ij, the adjoint of the
-// corrected density rate. Only then does the solve project: it takes the least from the velocity that leaves it free of
-// divergence. With the plain sum for a, it took 2.4 times as much from Taylor-Green vortices.
-void accelerate_corrected(World& world) {
-  count_sweep(world);
-  Fields& f = world.fields;
-  with_images(world.cells, [&](auto images) {
-    parallel_for(world.count, [&](std::size_t i) {
-      const float k = f.packed[i].w;
-      const Vec3 b = k * f.correction_diagonal[i], c = k * f.correction_mixed[i];
-      VectorSum push;
-      const auto add = [&](f8 slope, f8 pressure, const Pairs& p, Vec3 mixed_sign) {
-        const Vec8 d = gather(f.correction_diagonal.data(), p.j), e = gather(f.correction_mixed.data(), p.j);
-        const f8 xx = b.x + pressure * d.x, yy = b.y + pressure * d.y, zz = b.z + pressure * d.z;
-        const f8 yz = c.x + mixed_sign.x * pressure * e.x, zx = c.y + mixed_sign.y * pressure * e.y,
-                 xy = c.z + mixed_sign.z * pressure * e.z;
-        push.add(slope * (xx * p.x + xy * p.y + zx * p.z), slope * (xy * p.x + yy * p.y + yz * p.z),
-                 slope * (zx * p.x + yz * p.y + zz * p.z));
-      };
-      for_pairs(world.neighbours, f.packed.data(), i, images, [&](const Pairs& p) {
-        add(world.kernel.slope(p.r2), p.w, p, {1, 1, 1});
-      });
-      for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
-        const Vec3 s = r.sign;
-        add(weight * world.kernel.slope(p.r2), gather(f.packed.data(), p.j).w, p, {s.y * s.z, s.z * s.x, s.x * s.y});
-      });
-      f.acceleration[i] = -world.mass * push.total() - k * body_gradient(world, i);
-    });
-  });
-}
-
-// D_i(v): rate of change of density, kg/(m^3 s).
-template <class Images>
-float density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images, bool boundary) {
-  const Vec3 own = v[i];
-  f8 rate{};
-  for_pairs(world.neighbours, world.fields.position.data(), i, images, [&](const Pairs& p) {
-    const Vec8 other = gather(v.data(), p.j);
-    rate += world.kernel.slope(p.r2) * ((own.x - other.x) * p.x + (own.y - other.y) * p.y + (own.z - other.z) * p.z);
-  });
-  const float fluid = world.mass * sum(rate);
-  return boundary ? fluid + dot(own, world.fields.boundary_gradient[i]) : fluid;
-}
-
-// The same with the kernel-gradient correction B: sum m (v_i - v_j) . B grad W_ij, exact for a linear velocity on any
-// arrangement.
-template <class Images>
-float corrected_density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images) {
-  const Vec3 own = v[i], b = world.fields.correction_diagonal[i], c = world.fields.correction_mixed[i];
-  f8 rate{};
-  const auto add = [&](f8 slope, const Vec8& other, const Pairs& p) {
-    const f8 x = b.x * p.x + c.z * p.y + c.y * p.z, y = c.z * p.x + b.y * p.y + c.x * p.z,
-             z = c.y * p.x + c.x * p.y + b.z * p.z;
-    rate += slope * ((own.x - other.x) * x + (own.y - other.y) * y + (own.z - other.z) * z);
-  };
-  for_pairs(world.neighbours, world.fields.position.data(), i, images,
-            [&](const Pairs& p) { add(world.kernel.slope(p.r2), gather(v.data(), p.j), p); });
-  for_reflected_pairs(world, i, images, [&](const Pairs& p, f8 weight, const Reflection& r) {
-    add(weight * world.kernel.slope(p.r2), reflect(gather(v.data(), p.j), r.sign, {}), p);
-  });
-  const float fluid = world.mass * sum(rate);
-  return fluid + dot(own, body_gradient(world, i));
 }
 
 struct Progress {
@@ -170,7 +97,6 @@ Progress relax(World& world, const Solve& solve, float relaxation) {
   const bool boundary = world.has_boundary();
   const bool two_sided = world.parameters().pressure.two_sided;
   const float full = 0.9f * world.rest_density();
-  const Array<float>& diagonals = solve.adjoint ? f.corrected_diagonal : f.diagonal;
   Progress total;
   with_images(world.cells, [&](auto images) {
     total = ordered_sum<Progress>(world.count, [&](std::size_t begin, std::size_t end) {
@@ -182,7 +108,7 @@ Progress relax(World& world, const Solve& solve, float relaxation) {
         const float residual = source + (solve.corrected ? corrected_density_rate(world, f.acceleration, i, images)
                                                          : density_rate(world, f.acceleration, i, images, boundary));
         const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
-        const float diagonal = diagonals[i];
+        const float diagonal = f.diagonal[i];
         const float moved = std::max(lowest, k + relaxation * residual / diagonal);
         part.error += std::max(0.0f, residual);
         part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * diagonal));
@@ -213,21 +139,8 @@ void accelerate_particles(World& world) {
   parallel_for(world.count, [&](std::size_t i) { world.fields.velocity[i] += dt * world.fields.acceleration[i]; });
 }
 
-// v += share dt a, a the acceleration by the divergence solve of this step.
-void push_again(World& world, double share) {
-  Fields& f = world.fields;
-  const auto time = static_cast<float>(share * world.dt);
-  parallel_for(world.count, [&](std::size_t i) { f.velocity[i] += time * f.pressure_acceleration[i]; });
-}
-
-// Finds k for the given source; leaves it in solve.stiffness and a(k) in the field acceleration. Returns the number of
-// iterations and the mean compression that is left.
-struct Outcome {
-  int iterations;
-  double error;
-};
-
-Outcome solve_pressure(World& world, const Solve& solve) {
+// Finds k for the given source; leaves it in solve.stiffness and a(k) in the field acceleration.
+PressureSolution solve_pressure(World& world, const Solve& solve) {
   Fields& f = world.fields;
   const PressureParameters& p = world.parameters().pressure;
   const bool accelerated = p.solver == PressureParameters::solver_t::accelerated;
@@ -238,16 +151,12 @@ Outcome solve_pressure(World& world, const Solve& solve) {
     f.packed[i].w = k;
     f.iterate[i] = k;
   });
-  Outcome outcome{0, 0};
+  PressureSolution outcome;
   float relaxation = accelerated ? momentum_relaxation : jacobi_relaxation;
   double t = 1, least = INFINITY;
   bool more = true;
   while (more && outcome.iterations < solve.max_iterations) {
-    if (solve.adjoint) {
-      accelerate_corrected(world);
-    } else {
-      accelerate(world);
-    }
+    accelerate(world);
     if (p.warm_start && outcome.iterations == 0) scale_warm_start(world);
     const Progress progress = relax(world, solve, relaxation);
     outcome.error = progress.error * scale;
@@ -330,8 +239,10 @@ void divergence_solve(World& world) {
     });
   });
   world.report.divergence_skipped = skipped / static_cast<double>(world.count);
-  const auto outcome = solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance,
-                                              p.max_divergence_iterations, corrected, corrected && p.conserving});
+  const auto outcome = corrected && p.conserving
+                           ? project(world)
+                           : solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance,
+                                                    p.max_divergence_iterations, corrected});
   accelerate_particles(world);
   if (!f.pressure_acceleration.empty()) {
     parallel_for(world.count, [&](std::size_t i) { f.pressure_acceleration[i] = f.acceleration[i]; });
@@ -379,10 +290,6 @@ void density_solve(World& world) {
   world.report.pressure_iterations = outcome.iterations;
   world.report.density_error_avg = outcome.error;
 }
-
-void midpoint_velocity(World& world) { push_again(world, 0.5 * (1 + world.parameters().pressure.reflection)); }
-
-void reflect_velocity(World& world) { push_again(world, 0.5 * (world.parameters().pressure.reflection - 1)); }
 
 void total_pressure(World& world) {
   Fields& f = world.fields;

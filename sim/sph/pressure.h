@@ -17,19 +17,9 @@
 
 namespace curlew {
 
-// Velocity to divergence at most pressure.divergence_tolerance.
+// Velocity to divergence at most pressure.divergence_tolerance; in filled domains with pressure.conserving, by
+// projection.h.
 void divergence_solve(World& world);
-
-// With pressure.conserving, where a is the acceleration by the divergence solve at the step's beginning. A solve after
-// each move is a projection of first order, which takes dt^2 a^2 / 2 from the energy. If its push acts once more after
-// the next move, the velocity is reflected instead and keeps its energy (Zehnder, Narain & Thomaszewski 2018, "An
-// advection-reflection solver for detail-preserving fluid simulation"); for particles this is the trapezoidal rule for
-// the pressure's force, (1 + theta) a in all. theta = pressure.reflection below 1 damps pressures that change sign from
-// step to step. Particles move with the velocity of the middle of the step, v + dt (1 + theta) a / 2: moved with v
-// alone they spiral out of every vortex, the density solve pulls them back, and refinement takes that for a loss.
-void midpoint_velocity(World& world);
-// From there to v + theta dt a, when the particles have moved.
-void reflect_velocity(World& world);
 
 // The mean compression in a step at the velocity as it is, as the divergence solve counts it.
 double divergence_error(const World& world);

@@ -34,7 +34,6 @@ TEST_CASE("a vortex in a box with slip walls fades without tearing", "[filled]")
   Scene scene = at_particles_per_metre(bundled("gresho_chan"), 40);
   scene.domain.periodic = {false, false, false};
   scene.parameters.sph.h_over_d = 1;
-  scene.parameters.pressure.divergence_tolerance = 1e-5;
   Run run(scene);
   const double start = run.now().sums.kinetic;
   run.simulate(2);
@@ -52,22 +51,16 @@ TEST_CASE("a lid drives a vortex in a cavity at Re 100", "[filled]") {
   for (int face = 0; face < 4; ++face) scene.domain.walls[face].kind = WallKind::no_slip;
   scene.domain.walls[3].velocity = {1, 0, 0};
   scene.parameters.viscosity.nu = 0.01;
-  scene.parameters.pressure.divergence_tolerance = 1e-4;
-  // u along x = 0.5, Ghia, Ghia & Shin (1982), Table I; 30 particles across see it up to 0.06 weaker, with conserving
-  // pressure 0.02. A mean over 2 s: at one moment disorder is as large.
-  for (const bool conserving : {false, true}) {
-    scene.parameters.pressure.conserving = conserving;
-    Run run(scene);
-    run.simulate(8);
-    constexpr double heights[] = {0.2813, 0.4531, 0.7344}, exact[] = {-0.15662, -0.21090, 0.00332};
-    double mean[3] = {};
-    const double begin = run.world.time;
-    while (run.world.time < 10) {
-      run.take_steps(1);
-      for (int k = 0; k < 3; ++k) mean[k] += run.world.dt * flow_at(run.world, 0.5, heights[k]);
-    }
-    const double margin = conserving ? 0.035 : 0.07;
-    for (int k = 0; k < 3; ++k) CHECK(mean[k] / (run.world.time - begin) == Approx(exact[k]).margin(margin));
-    CHECK(odd_share(run.world) < 0.02);
+  Run run(scene);
+  run.simulate(8);
+  // u along x = 0.5, Ghia, Ghia & Shin (1982), Table I. A mean over 2 s: at one moment disorder is as large.
+  constexpr double heights[] = {0.2813, 0.4531, 0.7344}, exact[] = {-0.15662, -0.21090, 0.00332};
+  double mean[3] = {};
+  const double begin = run.world.time;
+  while (run.world.time < 10) {
+    run.take_steps(1);
+    for (int k = 0; k < 3; ++k) mean[k] += run.world.dt * flow_at(run.world, 0.5, heights[k]);
   }
+  for (int k = 0; k < 3; ++k) CHECK(mean[k] / (run.world.time - begin) == Approx(exact[k]).margin(0.025));
+  CHECK(odd_share(run.world) < 0.02);
 }
