@@ -39,7 +39,7 @@ std::span<const BenchRow> bench_table() {
        "taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic, standing_wave, square_patch, "
        "oscillating_drop, dam_break_front as error against run time; "
        "and where they are named, for hours, cavity and taylor_green_3d beside what others have computed",
-       {"CASE", "--cases", "--methods", "--nu", "--share", "--out"},
+       {"CASE", "--cases", "--methods", "--settings", "--nu", "--share", "--out"},
        accuracy_bench},
   };
   return rows;

@@ -26,6 +26,7 @@ struct AccuracyCase {
   std::function<void(const BenchOptions&)> run;
   bool takes_methods = false, takes_nu = false;
   bool is_long = false;  // hours: only where it is named
+  const PrecisionCase* precision = nullptr;
 };
 
 // Vortices and a drop with every turbulence method; then error against run time; then flows that others have computed.
@@ -37,7 +38,8 @@ std::vector<AccuracyCase> all_cases() {
       {"spinning_drop", spinning_drop_accuracy},
   };
   for (const PrecisionCase& c : precision_cases()) {
-    cases.push_back({c.name, [&c](const BenchOptions& options) { run_precision_case(c, options); }});
+    const auto run = [&c](const BenchOptions& options) { run_precision_case(c, options); };
+    cases.push_back({.name = c.name, .run = run, .precision = &c});
   }
   cases.push_back({"cavity", cavity_accuracy, true, true, true});
   cases.push_back({"taylor_green_3d", taylor_green_3d_accuracy, true, false, true});
@@ -60,6 +62,8 @@ void check_read(const AccuracyCase& c, const BenchOptions& options) {
   };
   if (!options.methods.empty() && !c.takes_methods) refuse("--methods");
   if (!options.nu.empty() && !c.takes_nu) refuse("--nu");
+  if (!options.rows.empty() && c.precision == nullptr) refuse("--settings");
+  if (c.precision != nullptr) settings_of(*c.precision, options);
   if (c.takes_nu) check_cavity_nu(options);
 }
 

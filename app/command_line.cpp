@@ -185,6 +185,8 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
                  "energy, overhead, cavity, taylor_green_3d: dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or "
                  "sums such as "
                  "vr1.0+mp0.05 (those of the paper)");
+  app.add_option("--settings", o.rows,
+                 "accuracy, error against run time: which rows of its tables, such as default accurate (all)");
   app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05); cavity: 0.01, 0.001, 0.0001 (the last two)");
   app.add_option_function<std::string>(
       "--time", [&](const std::string& t) { o.time = parse_positive("--time", t, "seconds"); },

@@ -37,6 +37,7 @@ struct BenchOptions {
   std::vector<std::string> cases;                // particle numbers
   std::vector<std::string> settings;             // key=value
   std::vector<std::string> scenes, methods, nu;  // empty: the benchmark's own
+  std::vector<std::string> rows;                 // names of settings that accuracy compares; empty: all
   std::optional<double> time;                    // s
   std::string out;                               // empty: out/NAME, accuracy: none
   int threads = 0;

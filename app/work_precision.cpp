@@ -149,10 +149,27 @@ std::vector<PrecisionResult> pareto_front(std::vector<PrecisionResult> results) 
   return front;
 }
 
+std::vector<PrecisionSetting> settings_of(const PrecisionCase& what, const BenchOptions& options) {
+  if (options.rows.empty()) return what.settings;
+  std::vector<PrecisionSetting> chosen;
+  for (const std::string& name : options.rows) {
+    const auto found = std::find_if(what.settings.begin(), what.settings.end(),
+                                    [&](const PrecisionSetting& s) { return s.name == name; });
+    if (found == what.settings.end()) {
+      std::string known;
+      for (const PrecisionSetting& s : what.settings) known += (known.empty() ? "\"" : ", \"") + s.name + "\"";
+      throw InputError("--settings is \"" + name + "\", of the accuracy case " + what.name + " expected one of " +
+                       known);
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
 void run_precision_case(const PrecisionCase& what, const BenchOptions& options) {
   std::printf("\n%s\n\n", what.title.c_str());
   std::vector<PrecisionResult> results;
-  for (const PrecisionSetting& setting : what.settings) {
+  for (const PrecisionSetting& setting : settings_of(what, options)) {
     for (const int resolution : resolutions_of(what, options)) {
       results.push_back(run_one(what, setting, resolution, options));
     }

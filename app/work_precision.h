@@ -61,6 +61,9 @@ double observed_order(double coarse_error, int coarse, double fine_error, int fi
 // The results that no other beats in both time and error, fastest first.
 std::vector<PrecisionResult> pareto_front(std::vector<PrecisionResult> results);
 
+// Its settings, or those that --settings names; throws InputError where it has none of that name.
+std::vector<PrecisionSetting> settings_of(const PrecisionCase& what, const BenchOptions& options);
+
 // Runs all of a case, prints its table, and writes NAME.csv and NAME.svg into the folder that the options name, if they
 // do. Options may replace the resolutions (--cases) and add settings to all runs (--set).
 void run_precision_case(const PrecisionCase& what, const BenchOptions& options);

@@ -79,7 +79,7 @@ constexpr Pass passes[] = {
     // Forces and the new step:
     {.name = "gravity", .reads = {}, .writes = {acceleration, model_acceleration}, .wanted = always, .run = gravity},
     {.name = "viscosity",
-     .reads = {position, velocity, density, acceleration, boundary_friction},
+     .reads = {position, velocity, density, acceleration, boundary_friction, correction_diagonal},
      .writes = {acceleration},
      .wanted = is_viscous,
      .run = viscosity},
