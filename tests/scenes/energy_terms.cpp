@@ -102,13 +102,13 @@ double corrected_enstrophy(const World& world) {
 
 TEST_CASE("what viscosity takes from Taylor-Green vortices is 2 nu times their enstrophy", "[budget]") {
   // rho nu int omega^2 = M nu |k|^2 U^2 / 2 with |k|^2 = 2 (2 pi / L)^2, U: amplitude of the flow that is there.
-  Scene scene = bundled("taylor_green");
+  const Scene scene = at_particles_per_metre(bundled("taylor_green"), 80);
   InitialVelocity unit = scene.fluid[0].velocity;
   unit.speed = 1;
   Account account(make_world(scene));
   const double nu = scene.parameters.viscosity.nu, k = 2 * pi;
   double by_amplitude = 0, by_curl = 0;
-  while (account.world.time < 0.5) {
+  while (account.world.time < 0.2) {
     const World& world = account.world;
     const double before = flow_amplitude(world, unit), enstrophy_before = corrected_enstrophy(world);
     account.take_step();

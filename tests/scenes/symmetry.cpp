@@ -51,6 +51,8 @@ constexpr Model all_guarded{"all, guarded", [](Parameters& p) {
                                 if (std::string_view(model.name) != "refinement by the sum") model.set(p);
                               }
                               p.energy.guard = true;
+                              p.pressure.conserving = false;  // so that there is a loss to give back
+                              p.pressure.divergence_tolerance = 1e-5;
                             }};
 
 // A periodic square or cube of 1 m around the origin, full of fluid off its lattice.
@@ -64,6 +66,8 @@ Scene periodic_box(int dimension, int particles_per_metre, const Model& model) {
   scene.fluid[0].shape = Box{scene.domain.min, scene.domain.max};
   scene.parameters.viscosity.nu = 1e-3;
   scene.parameters.time.fixed_step = 4e-3;
+  // Particles that lie across each other at the start fly apart, and make 1e-2 of the velocity out of round-off.
+  scene.fluid[0].jitter = 0.1;
   scene.parameters.pressure.relative_tolerance = 0.02;  // round-off decides in which iteration a loose solve stops
   scene.parameters.energy.guard = false;
   model.set(scene.parameters);
