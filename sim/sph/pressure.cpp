@@ -108,10 +108,9 @@ Progress relax(World& world, const Solve& solve, float relaxation) {
         const float residual = source + (solve.corrected ? corrected_density_rate(world, f.acceleration, i, images)
                                                          : density_rate(world, f.acceleration, i, images, boundary));
         const float lowest = two_sided && f.density[i] >= full ? -INFINITY : 0.0f;
-        const float diagonal = f.diagonal[i];
-        const float moved = std::max(lowest, k + relaxation * residual / diagonal);
+        const float moved = std::max(lowest, k + relaxation * residual / f.diagonal[i]);
         part.error += std::max(0.0f, residual);
-        part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * diagonal));
+        part.excess += std::max(0.0f, lowest < 0 ? -residual : std::min(-residual, k * f.diagonal[i]));
         part.momentum += double{residual} * (moved - f.iterate[i]);
         f.packed[i].w = moved;
       }

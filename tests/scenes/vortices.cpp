@@ -112,7 +112,7 @@ TEST_CASE("vorticity refinement keeps more of a vortex than plain DFSPH, and nev
   SECTION("Gresho-Chan: peak") {
     const Left plain = after_a_turn(gresho_chan()), left = after_a_turn(refined(gresho_chan(), reconstruction));
     INFO("peak " << left.peak << " of " << plain.peak << ", energy " << left.energy << " of " << plain.energy);
-    CHECK(left.peak > plain.peak);  // MEASURED
+    CHECK(left.peak > plain.peak);
     CHECK(left.energy > plain.energy);
     CHECK(left.peak < 1.02);
     CHECK(left.energy < 1.02);
