@@ -187,7 +187,8 @@ double reference_density(const World& world) {
 
 // The share of a pressure gradient that the symmetric sum of `accelerate` sees: the mean of -1/D sum V_j x_ij . grad
 // W_ij over particles that fluid surrounds, 1 on a good lattice and about 0.96 where particles lie in disorder at h =
-// d.
+// d. Each counts by its pressure: sum k_i times that is the virial, which holds the water's weight exactly, and where a
+// particle sees more of the gradient it bears more (still tank, 2D: 1.3 % in the mean).
 double gradient_share(World& world) {
   count_sweep(world);
   const Fields& f = world.fields;
@@ -210,7 +211,8 @@ double gradient_share(World& world) {
         f8 moment{};
         for_pairs(world.neighbours, f.position.data(), i, images,
                   [&](const Pairs& p) { moment -= world.kernel.slope(p.r2) * p.r2; });
-        part += {double{world.mass / f.density[i] * sum(moment)} / world.scene.dimension, 1};
+        const double weight = std::abs(double{f.density_stiffness[i]} + f.divergence_stiffness[i]);
+        part += {weight * double{world.mass / f.density[i] * sum(moment)} / world.scene.dimension, weight};
       }
       return part;
     });
