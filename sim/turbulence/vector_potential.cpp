@@ -148,6 +148,19 @@ void VectorPotential::smooth_lines(Level& level, int rounds) const {
   }
 }
 
+void VectorPotential::follow(Vec3 place) {
+  for (int axis = 0; axis < dimension_; ++axis) {
+    if (periodic_[axis]) origin_[axis] = place[axis];
+  }
+}
+
+float VectorPotential::along(int axis, Vec3 position) const {
+  const float at = (position[axis] - origin_[axis]) * inverse_spacing_[axis];
+  if (!periodic_[axis]) return at;
+  const auto intervals = static_cast<float>(levels_.front().nodes[axis]);
+  return at - intervals * std::floor(at / intervals);
+}
+
 bool VectorPotential::place(Vec3 position, Place& found) const {
   const Level& level = levels_.front();
   int node[3] = {0, 0, 0};
@@ -159,7 +172,7 @@ bool VectorPotential::place(Vec3 position, Place& found) const {
       w[1] = 1;
       continue;
     }
-    const float at = (position[axis] - origin_[axis]) * inverse_spacing_[axis];
+    const float at = along(axis, position);
     const float nearest_node = std::nearbyint(at), t = at - nearest_node;
     node[axis] = static_cast<int>(nearest_node);
     if (periodic_[axis] && node[axis] == level.nodes[axis]) node[axis] = 0;
@@ -180,7 +193,7 @@ void VectorPotential::spread(std::span<const Vec3> position, std::span<const Vec
   Level& level = levels_.front();
   const int across = dimension_ - 1, planes = level.nodes[across] + 1;
   const auto plane_of = [&](std::size_t i) {
-    const float at = (position[i][across] - origin_[across]) * inverse_spacing_[across];
+    const float at = along(across, position[i]);
     return static_cast<std::uint32_t>(std::clamp(std::nearbyint(at), 0.0f, static_cast<float>(planes - 1)));
   };
   plane_begin_.assign(static_cast<std::size_t>(planes) + 1, 0);

@@ -31,6 +31,10 @@ class VectorPotential {
 
   bool empty() const { return levels_.empty(); }
 
+  // Puts a node at this place, along periodic axes: a grid that goes with a particle gives the same answer in every
+  // frame (one that stood still moved the energy of Taylor-Green vortices by 2e-4 in 0.2 s).
+  void follow(Vec3 place);
+
   // From the vorticity (1/s) of the particles, with their volumes (m^D) in w.
   void solve(std::span<const Vec3> position, std::span<const Vec3> vorticity);
 
@@ -66,6 +70,8 @@ class VectorPotential {
     float weight[3][3], slope[3][3];  // [axis][-1, 0, 1]
   };
 
+  // Coordinate along an axis in intervals from the first node.
+  float along(int axis, Vec3 position) const;
   bool place(Vec3 position, Place& found) const;
   void spread(std::span<const Vec3> position, std::span<const Vec3> vorticity);
   void fold_ghosts();

@@ -94,6 +94,9 @@ void add_curl_of_stream_function(World& world) {
 void add_curl_of_potential(World& world) {
   Fields& f = world.fields;
   if (world.potential.empty()) world.potential = VectorPotential(world.scene);
+  if (world.count > 0) {
+    world.potential.follow(f.position[std::min_element(f.id.begin(), f.id.end()) - f.id.begin()]);
+  }
   world.potential.solve(f.position, f.lost_vorticity);
   const auto alpha = static_cast<float>(world.parameters().vorticity_refinement.alpha);
   parallel_for(world.count, [&](std::size_t i) {
