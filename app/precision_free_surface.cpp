@@ -14,11 +14,6 @@ constexpr double pi = std::numbers::pi;
 
 double square(double x) { return x * x; }
 
-void set_velocity(World& world, const std::function<Vec3d(Vec3d)>& exact) {
-  parallel_for(world.count,
-               [&](std::size_t i) { world.fields.velocity[i] = to_float(exact(to_double(world.fields.position[i]))); });
-}
-
 // Area that a particle stands for at rest density, m^2.
 double particle_area(const World& world) { return double{world.mass} / world.parameters().sph.rest_density; }
 

@@ -11,8 +11,11 @@
 #include "app/setup.h"
 #include "app/svg_plot.h"
 #include "sim/core/error.h"
+#include "sim/core/parallel.h"
+#include "sim/core/watch.h"
 #include "sim/io/csv.h"
 #include "sim/scene/reader.h"
+#include "sim/sph/motion.h"
 
 namespace curlew {
 namespace {
@@ -100,6 +103,13 @@ Scene scene_of(const std::string& json, double spacing) {
   return scene;
 }
 
+void set_velocity(World& world, const std::function<Vec3d(Vec3d)>& field) {
+  parallel_for(world.count,
+               [&](std::size_t i) { world.fields.velocity[i] = to_float(field(to_double(world.fields.position[i]))); });
+  world.dt = initial_time_step(world);
+  forgive(world);
+}
+
 std::vector<PrecisionSetting> usual_settings() {
   return {
       {"default", {}},
@@ -110,7 +120,8 @@ std::vector<PrecisionSetting> usual_settings() {
        {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-4", "pressure.relative_tolerance=0.03"}},
       {"tolerances x 10",
        {"pressure.density_tolerance=1e-3", "pressure.divergence_tolerance=1e-2", "pressure.relative_tolerance=1"}},
-      {"steps / 2", {"time.cfl=0.15", "time.acceleration_factor=0.125", "time.viscosity_factor=0.0625"}},
+      {"steps / 2",
+       {"time.cfl=0.15", "time.acceleration_factor=0.125", "time.viscosity_factor=0.0625", "time.max_step=0.0025"}},
       {"cold start", {"pressure.warm_start=false"}},
   };
 }

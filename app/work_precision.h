@@ -22,6 +22,9 @@ struct PrecisionRun {
   void simulate(double time, const std::function<void(const World&)>& look = {});
 };
 
+// Gives every particle of a world that has not begun the velocity (m/s) of a field at its place (m).
+void set_velocity(World& world, const std::function<Vec3d(Vec3d)>& field);
+
 // One line of the plot: a variation of the parameters.
 struct PrecisionSetting {
   std::string name;
