@@ -113,9 +113,11 @@ void set_velocity(World& world, const std::function<Vec3d(Vec3d)>& field) {
 std::vector<PrecisionSetting> usual_settings() {
   return {
       {"default", {}},
+      {"h/d 1.1", {"sph.h_over_d=1.1"}},
       {"h/d 1.3", {"sph.h_over_d=1.3"}},
       {"h/d 1.6", {"sph.h_over_d=1.6"}},
-      {"h/d 2", {"sph.h_over_d=2"}},
+      {"Wendland, h/d 1.1", {"sph.kernel=wendland", "sph.h_over_d=1.1"}},
+      {"Wendland, h/d 1.3", {"sph.kernel=wendland", "sph.h_over_d=1.3"}},
       {"tolerances / 10",
        {"pressure.density_tolerance=1e-5", "pressure.divergence_tolerance=1e-4", "pressure.relative_tolerance=0.03"}},
       {"tolerances x 10",

@@ -12,7 +12,7 @@ World make_empty_world(const Scene& scene, std::uint64_t seed) {
   world.scene = scene;
   world.seed = seed;
   const double d = scene.spacing(), h = d * scene.parameters.sph.h_over_d;
-  world.kernel = Kernel(h, scene.dimension);
+  world.kernel = Kernel(h, scene.dimension, static_cast<KernelKind>(scene.parameters.sph.kernel));
   // A lattice has exactly rest density, whatever the kernel's lattice sum.
   const double mass = scene.parameters.sph.rest_density / world.kernel.lattice_sum(d);
   world.mass = static_cast<float>(mass);

@@ -5,24 +5,30 @@
 
 namespace curlew {
 
-Kernel::Kernel(double h, int dimension) : h_(h), dimension_(dimension) {
+Kernel::Kernel(double h, int dimension, KernelKind kind) : h_(h), dimension_(dimension) {
   using std::numbers::pi;
-  sigma_ = dimension == 3 ? 1 / (pi * h * h * h) : 10 / (7 * pi * h * h);
+  if (kind == KernelKind::cubic) {
+    a_ = (dimension == 3 ? 1 / (pi * h * h * h) : 10 / (7 * pi * h * h)) / 4;
+  } else {
+    b_ = (dimension == 3 ? 21 / (16 * pi * h * h * h) : 7 / (4 * pi * h * h)) / 16;
+  }
   inv_h_ = static_cast<float>(1 / h);
-  quarter_sigma_ = static_cast<float>(sigma_ / 4);
-  slope_factor_ = static_cast<float>(-0.75 * sigma_ / h);
+  spline_ = static_cast<float>(a_);
+  wendland_ = static_cast<float>(b_);
+  spline_slope_ = static_cast<float>(-3 * a_ / h);
+  wendland_slope_ = static_cast<float>(-10 * b_ / (h * h));
   tiny_ = static_cast<float>(1e-12 * h * h);
   softening_ = static_cast<float>(0.01 * h * h);
 }
 
 double Kernel::value(double r) const {
   const double q = r / h_, u = std::max(2 - q, 0.0), v = std::max(1 - q, 0.0);
-  return sigma_ / 4 * (u * u * u - 4 * v * v * v);
+  return u * u * u * (a_ + b_ * u * (5 - 2 * u)) - 4 * a_ * v * v * v;
 }
 
 double Kernel::derivative(double r) const {
   const double q = r / h_, u = std::max(2 - q, 0.0), v = std::max(1 - q, 0.0);
-  return -0.75 * sigma_ / h_ * (u * u - 4 * v * v);
+  return (-3 * a_ * (u * u - 4 * v * v) - 10 * b_ * q * u * u * u) / h_;
 }
 
 double Kernel::lattice_sum(double d) const {

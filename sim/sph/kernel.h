@@ -1,6 +1,9 @@
-// The smoothing kernel: cubic spline of Monaghan (1992), support 2h.
-//   W(r) = sigma/4 [ (2-q)^3 - 4 (1-q)^3 ],  q = r/h, each bracket 0 where negative,
-//   sigma = 1/(pi h^3) in 3D, 10/(7 pi h^2) in 2D.
+// The smoothing kernels, of support 2h, q = r/h, each bracket 0 where negative:
+//   cubic spline (Monaghan 1992), W(r) = sigma/4 [ (2-q)^3 - 4 (1-q)^3 ],
+//     sigma = 1/(pi h^3) in 3D, 10/(7 pi h^2) in 2D;
+//   Wendland's C2 (Wendland 1995; Dehnen & Aly 2012, Table 1), W(r) = sigma (1 - q/2)^4 (1 + 2q),
+//     sigma = 21/(16 pi h^3) in 3D, 7/(4 pi h^2) in 2D.
+// With u = 2-q and v = 1-q both are u^3 (a + b u (5 - 2u)) - 4a v^3, one of a and b zero, so that no loop asks which.
 // The gradient is grad W = slope(r) x_ij, slope = W'(r)/r (unit: 1/m^(D+2)).
 #pragma once
 
@@ -8,11 +11,13 @@
 
 namespace curlew {
 
+enum class KernelKind { cubic, wendland };
+
 class Kernel {
  public:
   Kernel() = default;
   // h in metres; dimension 2 or 3.
-  Kernel(double h, int dimension);
+  Kernel(double h, int dimension, KernelKind kind = KernelKind::cubic);
 
   double support() const { return 2 * h_; }
   double h() const { return h_; }
@@ -26,13 +31,14 @@ class Kernel {
   f8 value(f8 r2) const {
     const f8 q = r2 * inverse_sqrt(max(r2, splat(tiny_))) * inv_h_;
     const f8 u = max(2.0f - q, f8{}), v = max(1.0f - q, f8{});
-    return quarter_sigma_ * (u * u * u - 4.0f * (v * v * v));
+    return u * u * u * (spline_ + wendland_ * u * (5.0f - 2.0f * u)) - 4.0f * spline_ * (v * v * v);
   }
   f8 slope(f8 r2) const {
     const f8 inverse_r = inverse_sqrt(max(r2, splat(tiny_)));
     const f8 q = r2 * inverse_r * inv_h_;
     const f8 u = max(2.0f - q, f8{}), v = max(1.0f - q, f8{});
-    return slope_factor_ * inverse_r * (u * u - 4.0f * (v * v));
+    const f8 spline = spline_slope_ * inverse_r;
+    return u * u * (spline + wendland_slope_ * u) - 4.0f * spline * (v * v);
   }
 
   // Sum of W over a lattice of spacing d, centre included (unit: 1/m^D).
@@ -45,9 +51,10 @@ class Kernel {
   float softening() const { return softening_; }
 
  private:
-  double h_ = 1, sigma_ = 1;
+  double h_ = 1, a_ = 0, b_ = 0;
   int dimension_ = 3;
-  float inv_h_ = 1, quarter_sigma_ = 0, slope_factor_ = 0, tiny_ = 1e-12f, softening_ = 0.01f;
+  float inv_h_ = 1, spline_ = 0, wendland_ = 0, spline_slope_ = 0, wendland_slope_ = 0, tiny_ = 1e-12f,
+        softening_ = 0.01f;
 };
 
 }  // namespace curlew

@@ -85,7 +85,7 @@ TEST_CASE("a case of the bench is a table, a CSV and a plot") {
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   const Table table = read_table(folder / "o/accuracy_couette.csv");
-  CHECK(table.rows.size() == 9);
+  CHECK(table.rows.size() == 11);
   CHECK(table.number(0, "largest error (% of the plate)") < 2);
   CHECK(outcome.out.find("| default | 10 | ") != std::string::npos);
   CHECK(well_formed(file_text(folder / "o/accuracy_couette.svg")));
