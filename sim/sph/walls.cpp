@@ -91,6 +91,7 @@ void Walls::add_face(WallSum& total, const Near& near) const {
     const auto [value, slope] = flat_[dimension_ - 1].at(s);
     total.gradient.w += value;
     total.gradient[face.axis] += face.side * rate * slope;
+    total.virial[face.axis] -= near.distance * rate * slope;
     if (!face.no_slip) continue;
     // 1 + s_b/a: two for the mirrored layer; bounded as Morris et al. do where a particle nears the plane.
     const float behind = (s - near.distance) / std::max(near.distance, 1e-6f * spacing_);
@@ -117,8 +118,9 @@ void Walls::add_overlap(WallSum& total, const Near* const* near, int number) con
     const float slope_over_s = slope / std::max(s, 1e-6f * spacing_);
     total.gradient.w += sign * value;
     for (int f = 0; f < number; ++f) {
-      total.gradient[near[f]->face->axis] +=
-          sign * near[f]->face->side * depth[f].rate * slope_over_s * depth[f].distance;
+      const float push = sign * depth[f].rate * slope_over_s * depth[f].distance;
+      total.gradient[near[f]->face->axis] += near[f]->face->side * push;
+      total.virial[near[f]->face->axis] -= near[f]->distance * push;
     }
   }
 }

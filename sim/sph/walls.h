@@ -58,6 +58,7 @@ class DistanceTable {
 // no_slip_gradient.
 struct WallSum {
   Vec3 gradient;  // w: density
+  Vec3 virial;    // -gradient times the distance from the plane, axis by axis; walls only
   Vec3 friction;
   Vec3 no_slip_gradient;  // bodies only: walls reflect
   float neighbours = 0;   // lattice points that would lie in the support behind the walls

@@ -95,6 +95,17 @@ TEST_CASE("a wall holds what reaches its plane", "[walls]") {
   CHECK_FALSE(setup.walls.hold(x, v));
 }
 
+TEST_CASE("the wall's virial is its push times the distance, each face for itself", "[walls]") {
+  const Setup setup(3);
+  const WallSum one = setup.walls.sum({0.5f, 0.98f, 0.5f});
+  CHECK(one.virial.y == Approx(double{one.gradient.y} * 0.02).epsilon(1e-4));
+  CHECK(one.virial.x == 0);
+  const WallSum corner = setup.walls.sum({0.03f, 0.98f, 0.04f});
+  CHECK(corner.virial.x == Approx(-double{corner.gradient.x} * 0.03).epsilon(1e-4));
+  CHECK(corner.virial.y == Approx(double{corner.gradient.y} * 0.02).epsilon(1e-4));
+  CHECK(corner.virial.z == Approx(-double{corner.gradient.z} * 0.04).epsilon(1e-4));
+}
+
 TEST_CASE("a no-slip wall pulls towards its own velocity", "[walls]") {
   Domain domain;
   domain.max = {1, 1, 1};
