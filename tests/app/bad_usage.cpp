@@ -54,7 +54,7 @@ const std::vector<Row> commands = {
     {"bench accuracy gresho",
      R"(there is no accuracy case "gresho", expected one of gresho_chan, lamb_oseen, taylor_vortex, spinning_drop, taylor_green, taylor_green_1000, couette, poiseuille, hydrostatic, standing_wave, square_patch, oscillating_drop, dam_break_front, cavity, taylor_green_3d)"},
     {"bench accuracy couette --settings fast",
-     R"(--settings is "fast", of the accuracy case couette expected one of "default", "h/d 1.3", "h/d 1.6", "h/d 2", "tolerances / 10", "tolerances x 10", "steps / 2", "cold start", "vector form")"},
+     R"(--settings is "fast", of the accuracy case couette expected one of "default", "h/d 1.1", "h/d 1.3", "h/d 1.6", "Wendland 1.1", "Wendland 1.3", "tolerances / 10", "tolerances x 10", "steps / 2", "cold start", "vector form")"},
     {"bench accuracy gresho_chan --settings default", "the accuracy case gresho_chan takes no --settings"},
     {"bench accuracy couette --methods dfsph", "the accuracy case couette takes no --methods"},
     {"bench accuracy taylor_green_3d --nu 1", "the accuracy case taylor_green_3d takes no --nu"},
