@@ -13,7 +13,7 @@
 #define CURLEW_SPH_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                           \
   CHOICE(kernel, cubic, "W", rebuild,                                                                              \
          "Smoothing kernel: cubic spline (Monaghan 1992), or Wendland's C2, which with sph.h_over_d = 1.1 is the " \
-         "more accurate and takes some 15 % longer.",                                                              \
+         "more accurate; in 3D a step takes some 15 % longer.",                                                    \
          cubic, wendland)                                                                                          \
   REAL(h_over_d, 1.0, 0.8, 2.0, 0.7, 3.0, "1", "h/d", rebuild,                                                     \
        "Smoothing length over particle spacing; the kernel reaches 2h. Bender & Koschier 2017 use 1.")             \
