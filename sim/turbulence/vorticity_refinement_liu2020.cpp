@@ -1,5 +1,6 @@
 #include "sim/turbulence/vorticity_refinement_liu2020.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

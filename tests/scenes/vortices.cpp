@@ -114,7 +114,10 @@ TEST_CASE("vorticity refinement keeps more of a vortex than plain DFSPH, and nev
     INFO("peak " << left.peak << " of " << plain.peak << ", energy " << left.energy << " of " << plain.energy);
     CHECK(left.peak > plain.peak);
     // The sum's gain of energy, here too, is less than what round-off moves (0.982 against 0.983).
-    if (reconstruction == Reconstruction::sum) CHECK_NOFAIL(left.energy > plain.energy);
+    if (reconstruction == Reconstruction::sum) {
+      CHECK_NOFAIL(left.energy > plain.energy);
+      CHECK(left.energy > plain.energy - 0.005);
+    }
     if (reconstruction == Reconstruction::poisson) CHECK(left.energy > plain.energy);
     CHECK(left.peak < 1.02);
     CHECK(left.energy < 1.02);
