@@ -71,7 +71,12 @@ focus_window() {
     sleep 0.2
   done
   [[ -n $id ]] || fail "no window came"
-  xdotool windowfocus "$id"
+  # A window that is not yet on the screen cannot have the focus.
+  for _ in $(seq 50); do
+    xdotool windowfocus "$id" 2>/dev/null && return
+    sleep 0.2
+  done
+  fail "the window takes no focus"
 }
 focus_window
 sleep 2
