@@ -33,6 +33,7 @@ std::span<const BenchRow> bench_table() {
        "where the simulation breaks: strengths of the methods, time step, viscosity, resolution",
        {"CASE", "--cases", "--scenes", "--time", "--out"},
        bench_stability},
+      {"surface", "what the mesh of the water's surface costs", {"--share"}, bench_surface},
       {"accuracy",
        "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop with every turbulence "
        "method; "

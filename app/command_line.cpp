@@ -12,6 +12,7 @@
 #include "sim/core/error.h"
 #include "sim/core/nearest_name.h"
 #include "sim/scene/json.h"
+#include "sim/scene/names.h"
 
 namespace curlew {
 namespace {
@@ -86,6 +87,16 @@ void add_path(CLI::App& app, const std::string& name, std::string& target, const
   app.add_option_function<std::string>(name, take, help);
 }
 
+void add_look(CLI::App& app, std::optional<LookStyle>& target) {
+  const auto take = [&target](const std::string& t) {
+    const auto names = look_style_names();
+    const std::string name = parse_word("--look", t, {names.begin(), names.end()});
+    target = static_cast<LookStyle>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  app.add_option_function<std::string>("--look", take,
+                                       "How water is shown: particles, water or fast-water (as the scene says)");
+}
+
 // Options are read as text and checked here, so that every message is ours.
 void add_common_options(CLI::App& app, RunOptions& o) {
   app.add_option("SCENE", o.scene, "Scene file, or the name of a bundled scene (curlew scenes)");
@@ -94,6 +105,7 @@ void add_common_options(CLI::App& app, RunOptions& o) {
   app.add_option_function<std::string>("--radius", radius, "Particle radius in m");
   const auto particles = [&](const std::string& t) { o.particles = parse_particle_number("--particles", t); };
   app.add_option_function<std::string>("--particles", particles, "Resolution that comes nearest: 24k, 1.2M, 1e5");
+  add_look(app, o.look);
 }
 
 void add_threads_and_seed(CLI::App& app, RunOptions& o) {
@@ -148,12 +160,54 @@ void add_run_options(CLI::App& app, RunOptions& o) {
         o.particles_out = parse_word("--particles-out", t, {"vtk", "ply", "bgeo"});
       },
       "Write particles each frame: vtk, ply or bgeo");
+  app.add_option_function<std::string>(
+      "--mesh-out",
+      [&](const std::string& t) {
+        o.mesh_out = parse_word("--mesh-out", t, {"ply", "obj"});
+      },
+      "Write the water's surface each frame: ply or obj");
   positive("--checkpoint-every", o.checkpoint_every, "seconds", "Write a checkpoint each so many simulated seconds");
   add_path(app, "--resume", o.resume,
            "Go on from this checkpoint, to the same bits; tables and checkpoints beyond it go");
   count("--hash-passes", o.hash_passes, 1, most_steps, "Write passes.csv every so many steps: a hash after each pass");
   app.add_flag("--quiet", o.quiet, "Say nothing but errors")->disable_flag_override();
   app.add_flag("--overwrite", o.overwrite, "Replace what an earlier run left in the folder")->disable_flag_override();
+}
+
+void add_redo_options(CLI::App& app, RedoOptions& o) {
+  const auto folder = [&o](const std::string& t) {
+    if (t.empty()) throw InputError("DIR is empty, expected the folder of a run");
+    o.folder = t;
+  };
+  app.add_option_function<std::string>("DIR", folder, "Folder of a run with --particles-out")->required();
+  app.add_option("--set", o.settings, "key=value: a parameter of the surface (curlew params)")->allow_extra_args(false);
+  app.add_option_function<std::string>(
+      "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
+  app.add_flag("--quiet", o.quiet, "Say nothing but errors")->disable_flag_override();
+  app.add_flag("--overwrite", o.overwrite, "Replace what is there")->disable_flag_override();
+}
+
+void add_mesh_options(CLI::App& app, RedoOptions& o) {
+  add_redo_options(app, o);
+  app.add_option_function<std::string>(
+      "--mesh-out",
+      [&](const std::string& t) {
+        o.mesh_out = parse_word("--mesh-out", t, {"ply", "obj"});
+      },
+      "Format: ply or obj (ply)");
+}
+
+void add_render_options(CLI::App& app, RedoOptions& o) {
+  add_redo_options(app, o);
+  add_look(app, o.look);
+  add_path(app, "--view", o.view, "Camera and look of this scene file instead of the run's own");
+  app.add_option_function<std::string>(
+      "--size", [&](const std::string& t) { parse_size(t, o.width, o.height); }, "Size of frames and video (1280x720)");
+  add_path(app, "--video", o.video, "Write this mp4 too (needs ffmpeg)");
+  app.add_option_function<std::string>(
+      "--fps",
+      [&](const std::string& t) { o.fps = parse_positive("--fps", t, "frames a second", most_frames_a_second); },
+      "Frames a second of the video (60)");
 }
 
 void add_bench_options(CLI::App& app, BenchOptions& o) {
@@ -273,6 +327,11 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run_app, run);
   CLI::App* check = app.add_subcommand("check", "Read a scene and say what it holds");
   add_common_options(*check, run);
+  RedoOptions redo;
+  CLI::App* mesh_app = app.add_subcommand("mesh", "Make the water's surface from the particle files of a run");
+  add_mesh_options(*mesh_app, redo);
+  CLI::App* render_app = app.add_subcommand("render", "Draw frames again from the particle files of a run");
+  add_render_options(*render_app, redo);
   CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, energy, overhead, stability, accuracy");
   add_bench_options(*bench_app, bench);
   CLI::App* scenes = app.add_subcommand("scenes", "List the bundled scenes");
@@ -292,6 +351,8 @@ int dispatch(int argc, char** argv) {
   }
   if (run_app->parsed()) return run_command(run);
   if (check->parsed()) return check_command(run);
+  if (mesh_app->parsed()) return mesh_command(redo);
+  if (render_app->parsed()) return render_command(redo);
   if (bench_app->parsed()) {
     check_bench_options(*bench_app, bench.name);
     return bench_command(bench);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/scene/scene.h"
+
 namespace curlew {
 
 struct RunOptions {
@@ -21,14 +23,30 @@ struct RunOptions {
   std::string out;  // empty: out/NAME, accuracy: none
   bool stats_each_frame = false, full_columns = false;
   bool frames = false;
+  std::optional<LookStyle> look;  // instead of the scene's
   int width = 1280, height = 720;
   std::string video;
   std::string particles_out;    // vtk, ply, bgeo or empty
+  std::string mesh_out;         // ply, obj or empty
   double checkpoint_every = 0;  // s of simulated time, 0: none
   std::string resume;
   bool quiet = false, overwrite = false;
   std::int64_t hash_passes = 0;  // every so many steps, 0: never
   std::string command;           // the whole line, for run.json
+};
+
+// `curlew mesh` and `curlew render`: frames of a finished run made again from its particle files.
+struct RedoOptions {
+  std::string folder;                 // of the run
+  std::vector<std::string> settings;  // key=value of the surface
+  std::string mesh_out = "ply";       // mesh
+  std::string view;                   // render: scene whose camera and look to use, or empty for the run's own
+  std::optional<LookStyle> look;      // render
+  int width = 1280, height = 720;     // render
+  std::string video;                  // render
+  double fps = 60;                    // of the video
+  int threads = 0;
+  bool quiet = false, overwrite = false;
 };
 
 struct BenchOptions {

@@ -5,6 +5,7 @@
 
 #include "app/setup.h"
 #include "sim/core/error.h"
+#include "sim/io/mesh_files.h"
 #include "sim/io/particle_files.h"
 
 namespace curlew {
@@ -22,14 +23,19 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
                          std::optional<std::array<double, 2>> range)
     : folder_(folder),
       format_(options.particles_out),
-      colour_(scene.look.colour_by),
+      mesh_format_(options.mesh_out),
+      colour_(scene.look.style == LookStyle::particles || scene.dimension == 2 ? scene.look.colour_by : "none"),
       png_(options.frames),
       range_(range) {
+  if (!mesh_format_.empty() && scene.dimension != 3) {
+    throw InputError("--mesh-out makes surfaces of three-dimensional water, and " + scene.file.string() +
+                     " has two dimensions");
+  }
   view_.camera = scene.camera;
   view_.look = scene.look;
   if (scene.look.range) range_ = scene.look.range;
   if (!options.frames && options.video.empty()) return;
-  if (const std::string warning = colour_warning(scene); !warning.empty() && !options.quiet) {
+  if (const std::string warning = colour_ == "none" ? "" : colour_warning(scene); !warning.empty() && !options.quiet) {
     std::fprintf(stderr, "curlew: warning: %s\n", warning.c_str());
   }
   geometry_ = make_geometry(scene);
@@ -47,12 +53,23 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   frames_ = std::make_unique<FrameWriter>();
 }
 
-FieldSet FrameOutput::demand() const { return renderer_ ? colour_demand(colour_) : FieldSet{}; }
+bool FrameOutput::shows_surface() const {
+  return renderer_ && view_.look.style == LookStyle::water && geometry_->dimension == 3;
+}
+
+FieldSet FrameOutput::demand() const {
+  FieldSet fields;
+  if (shows_surface() || !mesh_format_.empty()) fields = fields | surface_demand();
+  if (renderer_) fields = fields | colour_demand(colour_);
+  return fields;
+}
 
 void FrameOutput::write(const World& world, std::int64_t frame) {
   if (!format_.empty()) write_particles(world, frame);
+  if (!mesh_format_.empty()) write_mesh(world, frame);
   if (!renderer_) return;
   Frame picture = make_frame(world, colour_, geometry_);
+  if (shows_surface()) picture.surface = make_surface(world, surface_, view_.look.cut);
   if (view_.look.cut) picture = cut_open(picture, *view_.look.cut);
   if (!view_.look.range && !picture.value.empty()) {
     const auto own = curlew::colour_range(picture);
@@ -72,6 +89,14 @@ void FrameOutput::write_particles(const World& world, std::int64_t frame) const 
   if (format_ == "vtk") write_vtk(file, particles);
   if (format_ == "ply") write_ply(file, particles);
   if (format_ == "bgeo") write_bgeo(file, particles);
+}
+
+void FrameOutput::write_mesh(const World& world, std::int64_t frame) {
+  const Fields& f = world.fields;
+  const SurfaceMesh& mesh = surface_.make({f.position, f.density, f.velocity}, world.scene);
+  const std::string file = numbered(folder_, "mesh", frame, mesh_format_);
+  if (mesh_format_ == "ply") write_mesh_ply(file, mesh, world.time, world.step);
+  if (mesh_format_ == "obj") write_mesh_obj(file, mesh, world.time, world.step);
 }
 
 void FrameOutput::settle() {

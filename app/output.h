@@ -13,6 +13,7 @@
 #include "render/video.h"
 #include "sim/core/frame.h"
 #include "sim/core/world.h"
+#include "sim/surface/surface.h"
 
 namespace curlew {
 
@@ -25,7 +26,7 @@ class FrameOutput {
 
   // Fields that the frames show.
   FieldSet demand() const;
-  bool wants_frames() const { return renderer_ != nullptr || !format_.empty(); }
+  bool wants_frames() const { return renderer_ != nullptr || !format_.empty() || !mesh_format_.empty(); }
   const GraphicsInfo* graphics() const { return context_ ? &context_->info() : nullptr; }
   std::optional<std::array<double, 2>> colour_range() const { return range_; }
 
@@ -36,15 +37,18 @@ class FrameOutput {
   void finish();
 
  private:
+  bool shows_surface() const;
   void write_particles(const World& world, std::int64_t frame) const;
+  void write_mesh(const World& world, std::int64_t frame);
 
-  std::string folder_, format_, colour_;
+  std::string folder_, format_, mesh_format_, colour_;
   bool png_ = false;
   ViewSettings view_;
   std::optional<std::array<double, 2>> range_;
   std::shared_ptr<const FrameGeometry> geometry_;
   std::unique_ptr<OffscreenContext> context_;
   std::unique_ptr<Renderer> renderer_;
+  SurfaceMaker surface_;  // empty while nobody asks for it
   std::unique_ptr<FrameWriter> frames_;
   std::unique_ptr<VideoWriter> video_;
 };

@@ -128,7 +128,7 @@ void Session::set_parameters(const Parameters& parameters) {
     }
     plan();
     // The colours of a model that was switched on or off are other ones at once, also where nothing runs.
-    if (colour_switch(colour_, world_.scene.parameters) != missing) publish();
+    if (colour_switch(colour_, world_.scene.parameters) != missing || style_ == LookStyle::water) publish();
     const std::lock_guard lock(mutex_);
     parameters_ = world_.scene.parameters;
   });
@@ -137,6 +137,18 @@ void Session::set_parameters(const Parameters& parameters) {
 void Session::colour_by(const std::string& field) {
   post([this, field] {
     colour_ = field;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!loaded_) return;
+    }
+    plan();
+    publish();
+  });
+}
+
+void Session::show_as(LookStyle style) {
+  post([this, style] {
+    style_ = style;
     {
       const std::lock_guard lock(mutex_);
       if (!loaded_) return;
@@ -293,7 +305,7 @@ void Session::adopt(World world, Plan plan, std::int64_t number) {
 
 // The steps run the plan that needs no picture; what only the picture needs runs when one is taken.
 void Session::plan() {
-  const Plan bare = make_plan(world_), full = make_plan(world_, colour_demand(colour_));
+  const Plan bare = make_plan(world_), full = make_plan(world_, frame_demand());
   // What a field that is new holds, somebody has to find out first.
   const bool changed = bare.step != plan_.step || !(full.fields.without(plan_.fields) == FieldSet());
   if (changed) budget_ = EnergyBudget(bare);
@@ -350,9 +362,20 @@ void Session::advance() {
   if (wanted) publish();
 }
 
-void Session::publish() {
+FieldSet Session::frame_demand() const {
+  return style_ == LookStyle::water ? colour_demand(colour_) | surface_demand() : colour_demand(colour_);
+}
+
+std::shared_ptr<const Frame> Session::take_frame() {
   for (const Pass* pass : for_frames_) pass->run(world_);
-  auto frame = std::make_shared<const Frame>(make_frame(world_, colour_, geometry_));
+  const bool clear = style_ != LookStyle::particles && world_.scene.dimension == 3;
+  auto frame = std::make_shared<Frame>(make_frame(world_, clear ? "none" : colour_, geometry_));
+  if (clear && style_ == LookStyle::water) frame->surface = make_surface(world_, surface_);
+  return frame;
+}
+
+void Session::publish() {
+  auto frame = take_frame();
   const std::lock_guard lock(mutex_);
   frame_ = std::move(frame);
   frame_taken_ = false;
@@ -366,8 +389,7 @@ void Session::keep_recorded_frames() {
   if (recording_fps_ <= 0) return;
   const auto due = static_cast<std::int64_t>(std::floor(world_.time * recording_fps_ * (1 + 1e-12)));
   if (due < next_recorded_) return;
-  for (const Pass* pass : for_frames_) pass->run(world_);
-  const auto frame = std::make_shared<const Frame>(make_frame(world_, colour_, geometry_));
+  const auto frame = take_frame();
   for (; next_recorded_ <= due; ++next_recorded_) {
     std::unique_lock lock(mutex_);
     // What was asked for meanwhile, such as an end of the recording, must not wait for the taker.

@@ -17,6 +17,7 @@
 #include "sim/core/passes.h"
 #include "sim/core/world.h"
 #include "sim/measure/energy_budget.h"
+#include "sim/surface/surface.h"
 
 namespace curlew {
 
@@ -83,6 +84,8 @@ class Session {
   // Live parameters count from the next step; the others stay as the scene was laid out.
   void set_parameters(const Parameters& parameters);
   void colour_by(const std::string& field);
+  // With water, frames bring the mesh of its surface.
+  void show_as(LookStyle style);
   void save_checkpoint(const std::string& file);
 
   // While this is on, a frame is kept for every 1/fps s of simulated time, and the solver waits for its taker.
@@ -111,6 +114,8 @@ class Session {
   void adopt(World world, Plan plan, std::int64_t number);
   void plan();
   void advance();
+  FieldSet frame_demand() const;
+  std::shared_ptr<const Frame> take_frame();
   void publish();
   void keep_recorded_frames();
   void say(std::string message, bool error);
@@ -120,6 +125,8 @@ class Session {
   Plan plan_;
   std::vector<const Pass*> for_frames_;  // passes that only a frame needs
   std::string colour_ = "speed";
+  LookStyle style_ = LookStyle::particles;
+  SurfaceMaker surface_;
   std::shared_ptr<const FrameGeometry> geometry_;
   double recording_fps_ = 0;
   std::int64_t next_recorded_ = 0;

@@ -35,6 +35,7 @@ Scene scene_from(const RunOptions& options) {
     throw InputError("--radius and --particles both set the resolution; give one");
   Scene scene = read_scene(find_scene(options.scene, assets_folder()));
   apply_settings(scene.parameters, options.settings);
+  if (options.look) scene.look.style = *options.look;
   if (options.radius) scene.particle_radius = *options.radius;
   if (options.particles) scene = with_particles(scene, *options.particles);
   return scene;

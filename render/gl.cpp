@@ -84,6 +84,17 @@ VertexArray make_vertex_array() {
   return VertexArray(name);
 }
 
+Sampler make_sampler(GLenum filter) {
+  GLuint name = 0;
+  glCreateSamplers(1, &name);
+  Sampler sampler(name);
+  glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
+  glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
+  glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return sampler;
+}
+
 Image read_picture(GLuint framebuffer, int width, int height, GLenum buffer) {
   Image upside_down(width, height), image(width, height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);

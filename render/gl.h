@@ -39,6 +39,7 @@ using Texture = Object<Kind::texture>;
 using Framebuffer = Object<Kind::framebuffer>;
 using VertexArray = Object<Kind::vertex_array>;
 using Program = Object<Kind::program>;
+using Sampler = Object<Kind::sampler>;
 
 // A buffer that grows: sizes change from frame to frame where emitters run, storage only when it must.
 class Buffer {
@@ -62,6 +63,9 @@ Texture make_texture(GLenum format, int width, int height, GLenum filter = GL_NE
 Framebuffer make_framebuffer(std::span<const GLuint> colour, GLuint depth = 0);
 
 VertexArray make_vertex_array();
+
+// Clamped, comparing nothing: for reading a shadow map's depths themselves.
+Sampler make_sampler(GLenum filter);
 
 // What a framebuffer holds, first row at the top; `buffer` is GL_BACK for a window's own.
 Image read_picture(GLuint framebuffer, int width, int height, GLenum buffer = GL_COLOR_ATTACHMENT0);

@@ -60,9 +60,9 @@ void ParticleLayer::set_colours(std::string_view map, const Colour& water, std::
           coloured ? 1.f : 0.f, 0.f);
 }
 
-void ParticleLayer::draw() {
+void ParticleLayer::draw(const gl::Program& program) {
   if (count_ == 0) return;
-  glUseProgram(program_);
+  glUseProgram(program);
   glBindVertexArray(quads_);
   glVertexArrayElementBuffer(quads_, indices_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, positions_.name());

@@ -23,8 +23,9 @@ class ParticleLayer {
   // Colours by frame.value through the map, or the theme's plain water where there are no values.
   void set_colours(std::string_view map, const Colour& water, std::array<double, 2> range, bool coloured);
 
-  void draw();                       // into the bound G-buffer
-  void draw_shadow(GLuint program);  // into the bound shadow map, with a program that takes positions
+  void draw() { draw(program_); }         // into the bound G-buffer
+  void draw(const gl::Program& program);  // with another fragment shader behind sphere.vert
+  void draw_shadow(GLuint program);       // into the bound shadow map, with a program that takes positions
 
  private:
   gl::Program program_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "render/camera.h"
@@ -19,6 +21,7 @@
 #include "render/theme.h"
 #include "render/view_block.h"
 #include "render/walls.h"
+#include "render/water.h"
 #include "sim/core/error.h"
 
 namespace curlew {
@@ -40,6 +43,12 @@ int supersampling(int wanted, int width, int height) {
 
 }  // namespace
 
+// Water that is not drawn as spheres.
+struct ClearWater {
+  const SurfaceMesh* mesh;  // null: from the particles, on the screen
+  double radius, fill;      // of a drawn particle in m, and the share of the water in their spheres
+};
+
 struct Renderer::State {
   int width, height, wanted_supersample;
   Shading full;
@@ -48,6 +57,10 @@ struct Renderer::State {
   ParticleLayer particles;
   SolidLayer solids;
   WallLayer walls;
+  // Once there was some of it.
+  std::optional<WaterLight> water_light;
+  std::optional<WaterMeshLayer> water_mesh;
+  std::optional<ScreenWaterLayer> screen_water;
   Overlay overlay;
   gl::Program shadow_program;
   gl::Buffer block;
@@ -61,9 +74,12 @@ struct Renderer::State {
         shadow_program(gl::link_program("shadow.vert", "shadow.frag")) {}
 
   void upload_particles(const Frame& frame, const DropSize& size, const LightMap& light, bool only_in_sight);
-  void draw_shadow(const LightMap& light, double radius, bool bodies);
-  void draw_scene(const ViewSettings& settings, bool flat);
-  void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range);
+  void draw_shadow(const LightMap& light, double radius, bool bodies, bool particles_too);
+  void draw_scene(const ViewSettings& settings, bool flat, bool particles_too);
+  void draw_water_light(const LightMap& light, const ClearWater& water);
+  void draw_water(const ClearWater& water, const Theme& theme, const FrameGeometry& geometry);
+  void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range,
+                   bool clear_water);
 };
 
 void Renderer::State::upload_particles(const Frame& frame, const DropSize& size, const LightMap& light,
@@ -85,24 +101,56 @@ void Renderer::State::upload_particles(const Frame& frame, const DropSize& size,
   particles.upload_shadow(lit);
 }
 
-void Renderer::State::draw_shadow(const LightMap& light, double radius, bool bodies) {
+void Renderer::State::draw_shadow(const LightMap& light, double radius, bool bodies, bool particles_too) {
   const double pixels = 2 * radius / light.metres * shading->shadow_size();
   gl::set(shadow_program, "point_size", static_cast<float>(std::max(1.0, pixels)));
-  particles.draw_shadow(shadow_program);
+  if (particles_too) particles.draw_shadow(shadow_program);
   if (bodies) solids.draw_shadow(shadow_program);
 }
 
-void Renderer::State::draw_scene(const ViewSettings& settings, bool flat) {
+void Renderer::State::draw_water_light(const LightMap& light, const ClearWater& water) {
+  if (!water_light) water_light.emplace();
+  const int w = shading->drawn_width(), h = shading->drawn_height();
+  if (water.mesh && !water_mesh) water_mesh.emplace();
+  if (water.mesh) water_mesh->upload(*water.mesh);
+  if (!water.mesh && (!screen_water || screen_water->width() != w || screen_water->height() != h))
+    screen_water.emplace(w, h);
+  water_light->begin(shading->shadow_map());
+  if (water.mesh)
+    water_mesh->draw_light(light, *water_light);
+  else
+    screen_water->draw_light(particles, light, *water_light, water.radius, water.fill);
+  water_light->end();
+}
+
+// Over the lit picture of the solids.
+void Renderer::State::draw_water(const ClearWater& water, const Theme& theme, const FrameGeometry& geometry) {
+  shading->begin_water_thickness();
+  if (water.mesh) {
+    water_mesh->draw_thickness(shading->depth());
+    shading->begin_water();
+    water_mesh->draw_surface();
+  } else {
+    screen_water->draw_thickness(particles, shading->depth(), water.fill);
+    screen_water->find_distances(particles, 2 * geometry.particle_radius);
+    shading->begin_water();
+    screen_water->draw_surface();
+  }
+  shading->light_water(theme, length(geometry.domain.max - geometry.domain.min));
+}
+
+void Renderer::State::draw_scene(const ViewSettings& settings, bool flat, bool particles_too) {
   shading->begin_scene();
-  particles.draw();
+  if (particles_too) particles.draw();
   if (settings.show_bodies) solids.draw_bodies();
   if (settings.look.show_floor || flat) solids.draw_floor();
 }
 
-void Renderer::State::draw_legend(const Frame& frame, const Look& look, const Theme& theme,
-                                  std::array<double, 2> range) {
+void Renderer::State::draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range,
+                                  bool clear_water) {
   overlay.begin(width, height, theme);
-  if (!frame.value.empty()) add_colour_scale(overlay, width, height, frame.colour, look.colour_map, range);
+  if (!frame.value.empty() && !clear_water)
+    add_colour_scale(overlay, width, height, frame.colour, look.colour_map, range);
   add_time(overlay, width, height, frame.time);
   overlay.end();
 }
@@ -138,6 +186,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail d
   const Look& look = settings.look;
   const Theme& theme = theme_named(look.background);
   const bool flat = geometry.dimension == 2, coloured = !frame.value.empty();
+  const bool clear = !flat && look.style != LookStyle::particles;
   const DropSize size = settings.particle_scale ? DropSize{*settings.particle_scale, *settings.particle_scale}
                         : flat                  ? kDropSize2d
                                                 : kDropSize3d;
@@ -157,15 +206,22 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail d
 
   // Small particles do not cover what lies behind them.
   const bool covering = radius > 0.9 * geometry.particle_radius;
-  s.upload_particles(frame, size, light, draft && !flat && covering);
-  s.particles.set_colours(look.colour_map, theme.water, range, coloured);
+  const double fill = std::numbers::pi / 6 * std::pow(size.in_water, 3);
+  const ClearWater water{look.style == LookStyle::water ? frame.surface.get() : nullptr, radius, fill};
+  if (!clear || water.mesh == nullptr) {
+    s.upload_particles(frame, size, light, draft && !flat && covering && !clear);
+    s.particles.set_colours(look.colour_map, theme.water, range, coloured);
+  }
   s.solids.upload(frame.geometry);
   s.shading->begin_shadow();
-  if (!flat) s.draw_shadow(light, radius, settings.show_bodies);
-  s.draw_scene(settings, flat);
-  s.shading->light(light.metres);
+  if (!flat) s.draw_shadow(light, radius, settings.show_bodies, !clear);
+  if (clear) s.draw_water_light(light, water);
+  s.draw_scene(settings, flat, !clear);
+  s.shading->light(light.metres, clear ? s.water_light->map() : 0);
+  if (clear) s.draw_water(water, theme, geometry);
+  s.shading->finish();
   if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading->depth());
-  if (look.show_legend) s.draw_legend(frame, look, theme, range);
+  if (look.show_legend) s.draw_legend(frame, look, theme, range, clear);
 
   glDisable(GL_BLEND);
   glDisable(GL_PROGRAM_POINT_SIZE);

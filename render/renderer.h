@@ -1,5 +1,6 @@
-// Draws a Frame: particles as lit spheres, bodies, walls and floor, with legend and time. Needs a current OpenGL 4.5
-// context (OffscreenContext or a window's) and leaves no state behind but the bound framebuffer.
+// Draws a Frame: particles as lit spheres or as clear water, bodies, walls and floor, with legend and time. Clear water
+// (look.style) comes from frame.surface, and where there is none from the particles. Needs a current OpenGL 4.5 context
+// (OffscreenContext or a window's) and leaves no state behind but the bound framebuffer.
 #pragma once
 
 #include <memory>

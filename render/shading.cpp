@@ -64,6 +64,7 @@ void Shading::begin_shadow() {
 }
 
 void Shading::begin_scene() {
+  has_water_ = false;
   glBindFramebuffer(GL_FRAMEBUFFER, scene_target_);
   glViewport(0, 0, drawn_width(), drawn_height());
   glDepthFunc(GL_GREATER);
@@ -82,7 +83,7 @@ void Shading::full_screen(const gl::Program& program, GLuint target, int width, 
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Shading::light(double light_map_metres) {
+void Shading::light(double light_map_metres, GLuint water_light) {
   const int w = drawn_width(), h = drawn_height(), hw = half(w), hh = half(h);
   glDisable(GL_DEPTH_TEST);
   const auto sources = [](std::initializer_list<GLuint> textures) {
@@ -109,10 +110,63 @@ void Shading::light(double light_map_metres) {
   sources({light_, smoothed_});
   full_screen(blur_program_, blur_target_, hw, hh);
 
-  sources({depth_, albedo_, normal_, light_blurred_, smooth_normal_, smoothed_});
+  gl::set(shade_program_, "light_through_water", water_light != 0 ? 1.f : 0.f);
+  sources({depth_, albedo_, normal_, light_blurred_, smooth_normal_, smoothed_, water_light});
   full_screen(shade_program_, shade_target_, w, h);
+}
 
-  sources({shaded_, albedo_, normal_});
+void Shading::make_water_targets() {
+  if (water_thickness_) return;
+  const int w = drawn_width(), h = drawn_height();
+  water_program_ = gl::link_program("fullscreen.vert", "water.frag");
+  water_thickness_ = gl::make_texture(GL_R32F, w, h, GL_LINEAR);
+  water_normal_ = gl::make_texture(GL_RGB10_A2, w, h);
+  with_water_ = gl::make_texture(GL_RGBA8, w, h, GL_LINEAR);
+  const std::array<GLuint, 3> colour{water_thickness_, water_normal_, with_water_};
+  water_thickness_target_ = gl::make_framebuffer({&colour[0], 1});
+  water_target_ = gl::make_framebuffer({&colour[1], 1}, depth_);
+  with_water_target_ = gl::make_framebuffer({&colour[2], 1});
+}
+
+void Shading::begin_water_thickness() {
+  make_water_targets();
+  glBindFramebuffer(GL_FRAMEBUFFER, water_thickness_target_);
+  glViewport(0, 0, drawn_width(), drawn_height());
+  const std::array<float, 4> nothing{};
+  glClearNamedFramebufferfv(water_thickness_target_, GL_COLOR, 0, nothing.data());
+}
+
+void Shading::begin_water() {
+  make_water_targets();
+  glBindFramebuffer(GL_FRAMEBUFFER, water_target_);
+  glViewport(0, 0, drawn_width(), drawn_height());
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_GREATER);
+  const std::array<float, 4> nothing{};
+  glClearNamedFramebufferfv(water_target_, GL_COLOR, 0, nothing.data());
+}
+
+void Shading::light_water(const Theme& theme, double size) {
+  glDisable(GL_DEPTH_TEST);
+  const auto colour = [&](const char* name, const Colour& c, double factor = 1) {
+    const auto f = static_cast<float>(factor);
+    gl::set(water_program_, name, f * c[0], f * c[1], f * c[2], 0);
+  };
+  colour("deep_colour", theme.deep_water);
+  colour("absorption", theme.absorption, 1 / size);
+  colour("sky_zenith", theme.sky_zenith);
+  colour("sky_horizon", theme.sky_horizon);
+  const std::array<GLuint, 5> sources{shaded_, depth_, water_normal_, water_thickness_, distance_};
+  glBindTextures(0, static_cast<GLsizei>(sources.size()), sources.data());
+  full_screen(water_program_, with_water_target_, drawn_width(), drawn_height());
+  has_water_ = true;
+}
+
+void Shading::finish() {
+  glDisable(GL_DEPTH_TEST);
+  const std::array<GLuint, 3> sources{has_water_ ? with_water_ : shaded_, albedo_, normal_};
+  glBindTextures(0, static_cast<GLsizei>(sources.size()), sources.data());
   full_screen(resolve_program_, picture_target_, width_, height_);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);

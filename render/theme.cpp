@@ -38,6 +38,10 @@ Theme light_theme() {
   t.line_opacity = 0.55f;
   t.wall_opacity = 0.05f;
   t.water = web(0x2f86c6);
+  t.sky_zenith = {0.16f, 0.36f, 0.70f};
+  t.sky_horizon = {1.15f, 1.2f, 1.25f};
+  t.deep_water = web(0x0a4f70);
+  t.absorption = {14.f, 4.6f, 2.6f};
   t.ink = web(0x1d2830);
   t.paper = web(0xf4f6f7);
   return t;
@@ -61,6 +65,10 @@ Theme dark_theme() {
   t.line_opacity = 0.5f;
   t.wall_opacity = 0.05f;
   t.water = web(0x3a96d8);
+  t.sky_zenith = {0.10f, 0.22f, 0.48f};
+  t.sky_horizon = {0.85f, 0.95f, 1.05f};
+  t.deep_water = web(0x0b4a70);
+  t.absorption = {10.f, 3.2f, 1.8f};
   t.ink = web(0xe8eef3);
   t.paper = web(0x11161d);
   return t;

@@ -19,7 +19,10 @@ struct Theme {
   Colour body;
   Colour line;  // edges of the walls
   float line_opacity, wall_opacity;
-  Colour water;       // where particles are not coloured by a value
+  Colour water;                    // where particles are not coloured by a value
+  Colour sky_zenith, sky_horizon;  // in the mirror of clear water
+  Colour deep_water;               // what deep clear water gives back
+  Colour absorption;  // what clear water takes of red, green, blue on its way through a domain's diagonal, as exp(-a)
   Colour ink, paper;  // text, and the halo around it
 };
 

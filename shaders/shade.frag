@@ -5,6 +5,8 @@ layout(binding = 2) uniform sampler2D normal_map;
 layout(binding = 3) uniform sampler2D lights;          // half size
 layout(binding = 4) uniform sampler2D smooth_normals;  // half size
 layout(binding = 5) uniform sampler2D distances;       // half size, smoothed
+layout(binding = 6) uniform sampler2D water_light;     // metres of water that the key light crosses, seen from it
+uniform float light_through_water;                     // 1 where there is water to cross
 
 in vec2 uv;
 layout(location = 0) out vec4 colour;
@@ -56,6 +58,19 @@ void fetch_light(float dist, out vec2 light, out vec3 n, out float surface) {
   surface = smoothstep(0.2, 0.6, surface / light_sum.b);
 }
 
+// What is left of the key light behind the water before a point. The lamp is wide, so the shadow's rim is soft.
+vec3 through_water(vec3 p) {
+  if (light_through_water < 0.5) return vec3(1);
+  vec2 at = (world_to_light * (view_to_world * vec4(p, 1))).xy;
+  float metres = 0;
+  for (int i = 0; i < 8; ++i) {
+    float part = (float(i) + 0.5) / 8.0, angle = 6.2831853 * 2 * part;
+    metres += textureLod(water_light, at + sqrt(part) * 0.006 * vec2(cos(angle), sin(angle)), 0).r / 8.0;
+  }
+  float depth = max(metres, 0) / length(domain_max.xyz - domain_min.xyz);
+  return mix(vec3(1), exp(-vec3(6, 2.2, 1.3) * depth), 1) * (1 - 0.25 * (1 - exp(-60 * depth)));
+}
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depth_map, texel, 0).r;
@@ -86,7 +101,8 @@ void main() {
   float facing = dot(n, key_direction.xyz);
   float diffuse = water ? max((facing + 0.35) / 1.35, 0) : max(facing, 0);  // light bleeds through water
   vec3 ambient = mix(ground_colour.rgb, sky_colour.rgb, 0.5 + 0.5 * dot(n, up.xyz));
-  vec3 c = base * rim * (ambient * sky + key_colour.rgb * diffuse * key * mix(0.6, 1.0, sky));
+  vec3 lamp = key_colour.rgb * through_water(p);
+  vec3 c = base * rim * (ambient * sky + lamp * diffuse * key * mix(0.6, 1.0, sky));
   if (water) {
     // Schlick 1994, with a ceiling: the surface is rough, and a full mirror at every grazing angle would sparkle.
     float fresnel = min(0.02 + 0.98 * pow(clamp(1 - dot(mirror, to_eye), 0, 1), 5), 0.35);

@@ -5,6 +5,7 @@ layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };  //
 layout(std430, binding = 1) readonly buffer Values { float values[]; };
 
 layout(binding = 0) uniform sampler2D colour_map;
+uniform float larger;      // by how much the sphere is drawn larger, as a share of its radius
 uniform vec4 value_range;  // smallest, 1 / (largest - smallest), 1 if coloured by value, 0
 
 out vec3 on_quad;       // view space
@@ -21,7 +22,7 @@ void main() {
   colour = textureLod(colour_map, vec2((clamp(t, 0, 1) * 255 + 0.5) / 256, value_range.z > 0.5 ? 0.25 : 0.75), 0).rgb;
 
   vec3 right = vec3(1, 0, 0), up = vec3(0, 1, 0);
-  radius = domain_min.w * positions[particle].w;
+  radius = (1 + larger) * domain_min.w * positions[particle].w;
   float r = radius + rim_pixels() * pixel_at(-centre.z);
   float reach = r;
   if (key_direction.w < 0.5) {

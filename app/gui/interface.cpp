@@ -80,6 +80,7 @@ void Interface::install(const Pending& next) {
   orbit_is_new_ = true;
   latest_ = nullptr;  // it shows the scene before
   session_.colour_by(scene_.look.colour_by);
+  session_.show_as(scene_.look.style);
   adopt_cut(scene_.look.cut);
 }
 

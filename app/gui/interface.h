@@ -136,6 +136,7 @@ class Interface {
 
   // view_panel.cpp
   bool draw_colour_choice();  // true where another was chosen
+  bool draw_style_choice();   // true where another look was chosen
   void draw_view();
 
   // plots_panel.cpp

@@ -76,10 +76,32 @@ bool Interface::draw_colour_choice() {
   return true;
 }
 
+bool Interface::draw_style_choice() {
+  static constexpr const char* docs[] = {"The particles as spheres, coloured by a field.",
+                                         "Clear water by the mesh of its surface, which takes the solver's time for "
+                                         "each picture: best with a graphics card.",
+                                         "Clear water straight from the particles: no mesh, less exact."};
+  const auto names = look_style_names();
+  bool changed = false;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto style = static_cast<LookStyle>(k);
+    const std::string name(names[k]);
+    if (ImGui::RadioButton(name.c_str(), view_.look.style == style) && view_.look.style != style) {
+      view_.look.style = style;
+      session_.show_as(style);
+      changed = true;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", docs[k]);
+    mark("look " + name);
+  }
+  return changed;
+}
+
 void Interface::draw_view() {
   const float wide = std::min(8.0f * ImGui::GetFontSize(), 0.5f * ImGui::GetContentRegionAvail().x);
   bool changed = false;
   const auto marking = [this](const std::string& widget) { mark(widget); };
+  if (ImGui::CollapsingHeader("Water", ImGuiTreeNodeFlags_DefaultOpen)) changed |= draw_style_choice();
   if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
     changed |= draw_colour_choice();
     ImGui::SetNextItemWidth(wide);

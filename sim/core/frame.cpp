@@ -7,6 +7,7 @@
 #include "sim/core/parallel.h"
 #include "sim/core/world.h"
 #include "sim/scene/shapes.h"
+#include "sim/surface/surface.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
@@ -75,6 +76,8 @@ const ColourSource& source_of(std::string_view name) {
                    (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }
 
+bool keeps(const Cut& cut, Vec3 position) { return (position[cut.axis] > static_cast<float>(cut.at)) == cut.keep_high; }
+
 }  // namespace
 
 std::span<const ColourField> colour_fields() {
@@ -118,11 +121,31 @@ Frame make_frame(const World& world, std::string_view colour_name, std::shared_p
   return frame;
 }
 
+FieldSet surface_demand() { return {position, density}; }
+
+std::shared_ptr<const SurfaceMesh> make_surface(const World& world, SurfaceMaker& maker,
+                                                const std::optional<Cut>& cut) {
+  const Fields& f = world.fields;
+  if (!cut) return std::make_shared<const SurfaceMesh>(maker.make({f.position, f.density}, world.scene));
+  std::vector<Vec3> left;
+  std::vector<float> left_density;
+  for (std::size_t i = 0; i < world.count; ++i) {
+    if (!keeps(*cut, f.position[i])) continue;
+    left.push_back(f.position[i]);
+    left_density.push_back(f.density[i]);
+  }
+  // The cut is as flat as a wall.
+  Scene scene = world.scene;
+  (cut->keep_high ? scene.domain.min : scene.domain.max)[cut->axis] = cut->at;
+  scene.domain.periodic[static_cast<std::size_t>(cut->axis)] = false;
+  scene.domain.walls[static_cast<std::size_t>(2 * cut->axis + (cut->keep_high ? 0 : 1))].kind = WallKind::slip;
+  return std::make_shared<const SurfaceMesh>(maker.make({left, left_density}, scene));
+}
+
 Frame cut_open(const Frame& frame, const Cut& cut) {
-  Frame rest{frame.time, frame.step, {}, {}, frame.colour, frame.geometry};
-  const auto plane = static_cast<float>(cut.at);
+  Frame rest{frame.time, frame.step, {}, {}, frame.colour, frame.geometry, nullptr};
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
-    if ((frame.position[i][cut.axis] > plane) != cut.keep_high) continue;
+    if (!keeps(cut, frame.position[i])) continue;
     rest.position.push_back(frame.position[i]);
     if (!frame.value.empty()) rest.value.push_back(frame.value[i]);
   }

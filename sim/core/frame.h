@@ -11,8 +11,11 @@
 #include "sim/core/fields.h"
 #include "sim/core/vec.h"
 #include "sim/scene/scene.h"
+#include "sim/surface/surface_mesh.h"
 
 namespace curlew {
+
+class SurfaceMaker;
 
 // A scalar by which particles can be coloured.
 struct ColourField {
@@ -46,6 +49,7 @@ struct Frame {
   std::vector<float> value;    // of the colour field, one a particle; empty for plain water colour
   ColourField colour;
   std::shared_ptr<const FrameGeometry> geometry;
+  std::shared_ptr<const SurfaceMesh> surface;  // of the water, where it is shown as water
 };
 
 struct World;
@@ -61,6 +65,12 @@ std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene);
 
 // Copies what a frame shows out of the world.
 Frame make_frame(const World& world, std::string_view colour_name, std::shared_ptr<const FrameGeometry> geometry);
+
+// The surface of the water at this moment, without what the cut takes away. `maker` keeps its memory from frame to
+// frame. Needs the fields of surface_demand().
+FieldSet surface_demand();
+std::shared_ptr<const SurfaceMesh> make_surface(const World& world, SurfaceMaker& maker,
+                                                const std::optional<Cut>& cut = {});
 
 // The frame without what the cut takes away.
 Frame cut_open(const Frame& frame, const Cut& cut);

@@ -136,6 +136,16 @@
        "Water with more than this many times the mechanical energy of the start has diverged: the run stops. Not "    \
        "where walls move, a torque acts, or turbulence models run without energy.guard.")
 
+#define CURLEW_SURFACE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \
+  REAL(cell, 1.0, 0.5, 2.0, 0.5, 2.0, "r", "", live,                                                             \
+       "Width of the marching-cubes cells of the water's surface, in particle radii.")                           \
+  REAL(kernel_radius, 2.0, 1.2, 2.0, 1.0, 4.0, "d", "R", live,                                                   \
+       "Reach of a particle in the surface's level set, in spacings: larger is smoother and loses thin sheets.") \
+  REAL(iso, 0.5, 0.3, 0.7, 0.05, 0.95, "1", "", live,                                                            \
+       "Level of the surface, as a share of full water: half keeps the volume.")                                 \
+  COUNT(smoothing, 3, 0, 20, 0, 1000, "1", "", live,                                                             \
+        "Smoothing passes over the surface's mesh, which keep its volume (Taubin 1995).")
+
 // group name, struct, table, heading
 #define CURLEW_PARAMETER_GROUPS(GROUP)                                                                  \
   GROUP(sph, SphParameters, CURLEW_SPH_PARAMETERS, "Discretisation")                                    \
@@ -147,4 +157,5 @@
   GROUP(vorticity_confinement, VorticityConfinementParameters, CURLEW_VORTICITY_CONFINEMENT_PARAMETERS, \
         "Vorticity confinement")                                                                        \
   GROUP(energy, EnergyParameters, CURLEW_ENERGY_PARAMETERS, "Energy guard")                             \
-  GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")
+  GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")                                      \
+  GROUP(surface, SurfaceParameters, CURLEW_SURFACE_PARAMETERS, "Surface")

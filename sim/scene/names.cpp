@@ -7,6 +7,11 @@ std::span<const std::string_view> colour_map_names() {
   return names;
 }
 
+std::span<const std::string_view> look_style_names() {
+  static constexpr std::string_view names[] = {"particles", "water", "fast-water"};
+  return names;
+}
+
 std::span<const std::string_view> wall_kind_names() {
   static constexpr std::string_view names[] = {"slip", "no-slip", "open"};
   return names;

@@ -9,6 +9,9 @@ namespace curlew {
 // The colour maps that the renderer knows.
 std::span<const std::string_view> colour_map_names();
 
+// "particles", "water", "fast-water": in the order of LookStyle.
+std::span<const std::string_view> look_style_names();
+
 // "slip", "no-slip", "open": in the order of WallKind.
 std::span<const std::string_view> wall_kind_names();
 

@@ -204,11 +204,17 @@ Cut read_cut(const JsonPlace& place, int dimension) {
 }
 
 Look read_look(const JsonPlace& place, int dimension) {
-  place.allow({"colour_by", "colour_map", "range", "cut", "background", "show_walls", "show_legend", "show_floor"});
+  place.allow(
+      {"style", "colour_by", "colour_map", "range", "cut", "background", "show_walls", "show_legend", "show_floor"});
   Look look;
   std::vector<std::string_view> fields;
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
   static constexpr std::string_view backgrounds[] = {"light", "dark"};
+  if (const auto style = place.find("style")) {
+    const auto names = look_style_names();
+    const std::string name = read_name(*style, names);
+    look.style = static_cast<LookStyle>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
   if (const auto field = place.find("colour_by")) look.colour_by = read_name(*field, fields);
   if (const auto map = place.find("colour_map")) look.colour_map = read_name(*map, colour_map_names());
   if (const auto background = place.find("background")) look.background = read_name(*background, backgrounds);

@@ -117,7 +117,12 @@ struct Cut {
   bool keep_high = false;  // else the low side stays
 };
 
+// How water is shown: its particles as spheres, as clear water by the mesh of its surface, or as clear water by its
+// particles on the screen, without a mesh.
+enum class LookStyle { particles, water, fast_water };
+
 struct Look {
+  LookStyle style = LookStyle::particles;
   std::string colour_by = "speed";             // a name of colour_fields(), see sim/core/frame.h
   std::string colour_map = "water";            // a name of the renderer's colour maps
   std::optional<std::array<double, 2>> range;  // of the colour scale; from the run's own data where absent

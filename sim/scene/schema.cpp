@@ -206,7 +206,10 @@ JsonNode look_node() {
   for (const ColourField& field : colour_fields()) fields.push_back(field.name);
   return object_of(
       "What the picture shows.",
-      {{"colour_by",
+      {{"style", one_of_names(look_style_names(),
+                              "The particles as spheres, clear water by the mesh of its surface, or clear water by its "
+                              "particles on the screen.")},
+       {"colour_by",
         one_of_names(
             fields,
             "Field that colours the particles; microrotation and lost_vorticity are 0 while their models are off.")},

@@ -169,6 +169,8 @@ JsonNode camera_node(const Camera& camera) {
 
 JsonNode look_node(const Look& look) {
   JsonNode node = JsonNode::object();
+  const auto style = look_style_names()[static_cast<std::size_t>(look.style)];
+  node.add("style", JsonNode::of(std::string(style)));
   node.add("colour_by", JsonNode::of(look.colour_by)).add("colour_map", JsonNode::of(look.colour_map));
   if (look.range) node.add("range", vector_node({(*look.range)[0], (*look.range)[1], 0}, 2));
   if (look.cut) {

@@ -29,7 +29,7 @@ namespace {
 
 const std::string golden_folder = CURLEW_TEST_DIR;
 const std::vector<std::string> names = {"start", "collapse", "front"};
-const std::vector<std::string> views = {"dark_vorticity", "top_pressure", "plain", "flat"};
+const std::vector<std::string> views = {"dark_vorticity", "top_pressure", "plain", "flat", "water", "fast_water"};
 
 struct Frames {
   std::map<std::string, Image> pictures;
