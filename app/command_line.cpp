@@ -210,6 +210,22 @@ void add_render_options(CLI::App& app, RedoOptions& o) {
       "Frames a second of the video (60)");
 }
 
+void add_compare_options(CLI::App& app, CompareOptions& o) {
+  const auto folder = [&app](const char* name, std::string& target, const char* help) {
+    const auto take = [&target, name](const std::string& t) {
+      if (t.empty()) throw InputError(std::string(name) + " is empty, expected the folder of a run");
+      target = t;
+    };
+    app.add_option_function<std::string>(name, take, help)->required();
+  };
+  folder("GOLDEN", o.golden, "Folder of the run that is known to be good");
+  folder("NEW", o.now, "Folder of the run to be judged");
+  add_path(app, "--report", o.report, "Write the page here (NEW/compare.html)");
+  app.add_flag("--accept", o.accept, "Let NEW take GOLDEN's place, whatever differs; exit code 0")
+      ->disable_flag_override();
+  app.add_flag("--quiet", o.quiet, "Say the verdict only")->disable_flag_override();
+}
+
 void add_bench_options(CLI::App& app, BenchOptions& o) {
   std::vector<std::string> names;
   std::string help = "Which:";
@@ -332,6 +348,10 @@ int dispatch(int argc, char** argv) {
   add_mesh_options(*mesh_app, redo);
   CLI::App* render_app = app.add_subcommand("render", "Draw frames again from the particle files of a run");
   add_render_options(*render_app, redo);
+  CompareOptions compare;
+  CLI::App* compare_app =
+      app.add_subcommand("compare", "Say what changed between two runs: parameter, simulation or rendering");
+  add_compare_options(*compare_app, compare);
   CLI::App* bench_app = app.add_subcommand("bench", "Measure: speed, memory, energy, overhead, stability, accuracy");
   add_bench_options(*bench_app, bench);
   CLI::App* scenes = app.add_subcommand("scenes", "List the bundled scenes");
@@ -353,6 +373,7 @@ int dispatch(int argc, char** argv) {
   if (check->parsed()) return check_command(run);
   if (mesh_app->parsed()) return mesh_command(redo);
   if (render_app->parsed()) return render_command(redo);
+  if (compare_app->parsed()) return compare_command(compare);
   if (bench_app->parsed()) {
     check_bench_options(*bench_app, bench.name);
     return bench_command(bench);

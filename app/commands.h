@@ -15,6 +15,7 @@ int params_command(ParameterFormat format);
 int doctor_command();
 int mesh_command(const RedoOptions& options);
 int render_command(const RedoOptions& options);
+int compare_command(const CompareOptions& options);
 int bench_command(const BenchOptions& options);
 // The window; of the options it heeds scene, settings, resolution, threads and seed.
 int gui_command(const RunOptions& options);

@@ -49,6 +49,13 @@ struct RedoOptions {
   bool quiet = false, overwrite = false;
 };
 
+// `curlew compare GOLDEN NEW`.
+struct CompareOptions {
+  std::string golden, now;  // folders of runs
+  std::string report;       // page; empty: NEW/compare.html
+  bool accept = false, quiet = false;
+};
+
 struct BenchOptions {
   std::string name;
   std::vector<std::string> names;                // cases of accuracy

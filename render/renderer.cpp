@@ -76,7 +76,7 @@ struct Renderer::State {
   void upload_particles(const Frame& frame, const DropSize& size, const LightMap& light, bool only_in_sight);
   void draw_shadow(const LightMap& light, double radius, bool bodies, bool particles_too);
   void draw_scene(const ViewSettings& settings, bool flat, bool particles_too);
-  void draw_water_light(const LightMap& light, const ClearWater& water);
+  void draw_water_light(const LightMap& light, const ClearWater& water, const Domain& domain);
   void draw_water(const ClearWater& water, const Theme& theme, const FrameGeometry& geometry);
   void draw_legend(const Frame& frame, const Look& look, const Theme& theme, std::array<double, 2> range,
                    bool clear_water);
@@ -108,7 +108,7 @@ void Renderer::State::draw_shadow(const LightMap& light, double radius, bool bod
   if (bodies) solids.draw_shadow(shadow_program);
 }
 
-void Renderer::State::draw_water_light(const LightMap& light, const ClearWater& water) {
+void Renderer::State::draw_water_light(const LightMap& light, const ClearWater& water, const Domain& domain) {
   if (!water_light) water_light.emplace();
   const int w = shading->drawn_width(), h = shading->drawn_height();
   if (water.mesh && !water_mesh) water_mesh.emplace();
@@ -121,6 +121,7 @@ void Renderer::State::draw_water_light(const LightMap& light, const ClearWater& 
   else
     screen_water->draw_light(particles, light, *water_light, water.radius, water.fill);
   water_light->end();
+  if (water.mesh) water_mesh->draw_caustics(domain);
 }
 
 // Over the lit picture of the solids.
@@ -215,9 +216,9 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail d
   s.solids.upload(frame.geometry);
   s.shading->begin_shadow();
   if (!flat) s.draw_shadow(light, radius, settings.show_bodies, !clear);
-  if (clear) s.draw_water_light(light, water);
+  if (clear) s.draw_water_light(light, water, geometry.domain);
   s.draw_scene(settings, flat, !clear);
-  s.shading->light(light.metres, clear ? s.water_light->map() : 0);
+  s.shading->light(light.metres, clear ? s.water_light->map() : 0, water.mesh ? s.water_mesh->caustics() : 0);
   if (clear) s.draw_water(water, theme, geometry);
   s.shading->finish();
   if (look.show_walls) s.walls.draw(geometry, s.view, theme, std::max(1.0, s.height / 600.0), s.shading->depth());

@@ -83,7 +83,7 @@ void Shading::full_screen(const gl::Program& program, GLuint target, int width, 
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Shading::light(double light_map_metres, GLuint water_light) {
+void Shading::light(double light_map_metres, GLuint water_light, GLuint caustics) {
   const int w = drawn_width(), h = drawn_height(), hw = half(w), hh = half(h);
   glDisable(GL_DEPTH_TEST);
   const auto sources = [](std::initializer_list<GLuint> textures) {
@@ -111,7 +111,8 @@ void Shading::light(double light_map_metres, GLuint water_light) {
   full_screen(blur_program_, blur_target_, hw, hh);
 
   gl::set(shade_program_, "light_through_water", water_light != 0 ? 1.f : 0.f);
-  sources({depth_, albedo_, normal_, light_blurred_, smooth_normal_, smoothed_, water_light});
+  gl::set(shade_program_, "has_caustics", caustics != 0 ? 1.f : 0.f);
+  sources({depth_, albedo_, normal_, light_blurred_, smooth_normal_, smoothed_, water_light, caustics});
   full_screen(shade_program_, shade_target_, w, h);
 }
 

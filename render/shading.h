@@ -17,8 +17,9 @@ class Shading {
   // Targets of the passes that others draw, in this order. Each call binds and clears.
   void begin_shadow();
   void begin_scene();
-  // Lights what the G-buffer holds; water_light says how much water the light crosses on its way, or is 0.
-  void light(double light_map_metres, GLuint water_light = 0);
+  // Lights what the G-buffer holds; water_light says how much water the light crosses on its way, and caustics
+  // what it makes of the light on the floor; each may be 0.
+  void light(double light_map_metres, GLuint water_light = 0, GLuint caustics = 0);
   // Water over what was lit: its thickness, then its surface, into targets that each call binds and clears, then the
   // light on it. `size` is the domain's diagonal in m, to which the theme's absorption refers.
   void begin_water_thickness();

@@ -9,7 +9,7 @@
 namespace curlew {
 namespace {
 
-constexpr int light_size = 512;
+constexpr int light_size = 512, caustics_size = 768;
 
 gl::Framebuffer target_for(GLuint colour, GLuint depth = 0) { return gl::make_framebuffer({&colour, 1}, depth); }
 
@@ -58,7 +58,10 @@ WaterMeshLayer::WaterMeshLayer()
     : front_program_(gl::link_program("water.vert", "water_front.frag")),
       thickness_program_(gl::link_program("water.vert", "water_thickness.frag")),
       light_program_(gl::link_program("shadow.vert", "water_light.frag")),
-      array_(gl::make_vertex_array()) {
+      caustics_program_(gl::link_program("caustics.vert", "caustics.frag")),
+      array_(gl::make_vertex_array()),
+      caustics_(gl::make_texture(GL_R16F, caustics_size, caustics_size, GL_LINEAR)),
+      caustics_target_(target_for(caustics_)) {
   for (const GLuint attribute : {0u, 1u}) {
     glEnableVertexArrayAttrib(array_, attribute);
     glVertexArrayAttribFormat(array_, attribute, 3, GL_FLOAT, GL_FALSE, 0);
@@ -88,6 +91,16 @@ void WaterMeshLayer::draw_light(const LightMap& light, const WaterLight& into) {
   gl::set(light_program_, "light_metres", static_cast<float>(light.metres));
   gl::set(light_program_, "light_texel", into.texel());
   draw(light_program_);
+}
+
+void WaterMeshLayer::draw_caustics(const Domain& domain) {
+  glBindFramebuffer(GL_FRAMEBUFFER, caustics_target_);
+  glViewport(0, 0, caustics_size, caustics_size);
+  clear(caustics_target_);
+  const Vec3d size = domain.max - domain.min;
+  gl::set(caustics_program_, "texel_area", static_cast<float>(size.x * size.z / (caustics_size * caustics_size)));
+  const Adding adding;
+  draw(caustics_program_);
 }
 
 void WaterMeshLayer::draw_thickness(GLuint solid_depth) {

@@ -35,15 +35,20 @@ class WaterMeshLayer {
 
   void upload(const SurfaceMesh& mesh);
   void draw_light(const LightMap& light, const WaterLight& into);
+  // The key light on the floor, bent by the surface, over what falls there without water; a map over the domain.
+  void draw_caustics(const Domain& domain);
+  GLuint caustics() const { return caustics_; }
   void draw_thickness(GLuint solid_depth);  // into the target that Shading::begin_water_thickness() binds
   void draw_surface();                      // into that of Shading::begin_water()
 
  private:
   void draw(const gl::Program& program);
 
-  gl::Program front_program_, thickness_program_, light_program_;
+  gl::Program front_program_, thickness_program_, light_program_, caustics_program_;
   gl::VertexArray array_;
   gl::Buffer positions_, normals_, indices_;
+  gl::Texture caustics_;
+  gl::Framebuffer caustics_target_;
   GLsizei count_ = 0;
 };
 

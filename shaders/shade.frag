@@ -6,7 +6,9 @@ layout(binding = 3) uniform sampler2D lights;          // half size
 layout(binding = 4) uniform sampler2D smooth_normals;  // half size
 layout(binding = 5) uniform sampler2D distances;       // half size, smoothed
 layout(binding = 6) uniform sampler2D water_light;     // metres of water that the key light crosses, seen from it
+layout(binding = 7) uniform sampler2D caustics;        // light on the floor under water, over that without
 uniform float light_through_water;                     // 1 where there is water to cross
+uniform float has_caustics;                            // 1 where that map is there
 
 in vec2 uv;
 layout(location = 0) out vec4 colour;
@@ -59,16 +61,26 @@ void fetch_light(float dist, out vec2 light, out vec3 n, out float surface) {
 }
 
 // What is left of the key light behind the water before a point. The lamp is wide, so the shadow's rim is soft.
-vec3 through_water(vec3 p) {
+vec3 through_water(vec3 p, bool on_floor) {
   if (light_through_water < 0.5) return vec3(1);
-  vec2 at = (world_to_light * (view_to_world * vec4(p, 1))).xy;
+  vec3 world = (view_to_world * vec4(p, 1)).xyz;
+  vec2 at = (world_to_light * vec4(world, 1)).xy;
   float metres = 0;
   for (int i = 0; i < 8; ++i) {
     float part = (float(i) + 0.5) / 8.0, angle = 6.2831853 * 2 * part;
-    metres += textureLod(water_light, at + sqrt(part) * 0.006 * vec2(cos(angle), sin(angle)), 0).r / 8.0;
+    metres += max(textureLod(water_light, at + sqrt(part) * 0.004 * vec2(cos(angle), sin(angle)), 0).r, 0) / 8.0;
   }
-  float depth = max(metres, 0) / length(domain_max.xyz - domain_min.xyz);
-  return mix(vec3(1), exp(-vec3(6, 2.2, 1.3) * depth), 1) * (1 - 0.25 * (1 - exp(-60 * depth)));
+  float depth = metres / length(domain_max.xyz - domain_min.xyz);
+  float covered = 1 - exp(-250 * depth);
+  vec3 left = exp(-vec3(5, 1.7, 1.0) * depth);
+  if (!on_floor || has_caustics < 0.5) return left * (1 - 0.2 * covered);
+  vec2 map = (world.xz - domain_min.xz) / (domain_max.xz - domain_min.xz);
+  if (any(lessThan(map, vec2(0))) || any(greaterThan(map, vec2(1)))) return left * (1 - 0.2 * covered);
+  vec2 texel = 1.5 / vec2(textureSize(caustics, 0));
+  float bright = 0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) bright += textureLod(caustics, map + texel * vec2(x, y), 0).r / 9.0;
+  return left * mix(1, min(bright, 4.0), covered);
 }
 
 void main() {
@@ -101,7 +113,7 @@ void main() {
   float facing = dot(n, key_direction.xyz);
   float diffuse = water ? max((facing + 0.35) / 1.35, 0) : max(facing, 0);  // light bleeds through water
   vec3 ambient = mix(ground_colour.rgb, sky_colour.rgb, 0.5 + 0.5 * dot(n, up.xyz));
-  vec3 lamp = key_colour.rgb * through_water(p);
+  vec3 lamp = key_colour.rgb * through_water(p, is_floor(albedo.a));
   vec3 c = base * rim * (ambient * sky + lamp * diffuse * key * mix(0.6, 1.0, sky));
   if (water) {
     // Schlick 1994, with a ceiling: the surface is rough, and a full mirror at every grazing angle would sparkle.

@@ -77,22 +77,29 @@ bool Interface::draw_colour_choice() {
 }
 
 bool Interface::draw_style_choice() {
-  static constexpr const char* docs[] = {"The particles as spheres, coloured by a field.",
-                                         "Clear water by the mesh of its surface, which takes the solver's time for "
-                                         "each picture: best with a graphics card.",
-                                         "Clear water straight from the particles: no mesh, less exact."};
+  static constexpr const char* docs[] = {
+      "The particles as spheres, coloured by a field.",
+      "Clear water by the mesh of its surface, which takes the solver's time for each picture: best with a graphics "
+      "card.",
+      "Clear water straight from the particles: no mesh, less exact."};
   const auto names = look_style_names();
+  const auto chosen = static_cast<std::size_t>(view_.look.style);
   bool changed = false;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto style = static_cast<LookStyle>(k);
-    const std::string name(names[k]);
-    if (ImGui::RadioButton(name.c_str(), view_.look.style == style) && view_.look.style != style) {
-      view_.look.style = style;
-      session_.show_as(style);
-      changed = true;
+  if (ImGui::BeginCombo("look", std::string(names[chosen]).c_str())) {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const std::string name(names[k]);
+      if (ImGui::Selectable(name.c_str(), k == chosen) && k != chosen) {
+        view_.look.style = static_cast<LookStyle>(k);
+        session_.show_as(view_.look.style);
+        changed = true;
+      }
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", docs[k]);
+      mark("look " + name);
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", docs[k]);
-    mark("look " + name);
+    ImGui::EndCombo();
+  } else {
+    mark("look");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", docs[chosen]);
   }
   return changed;
 }
@@ -101,8 +108,9 @@ void Interface::draw_view() {
   const float wide = std::min(8.0f * ImGui::GetFontSize(), 0.5f * ImGui::GetContentRegionAvail().x);
   bool changed = false;
   const auto marking = [this](const std::string& widget) { mark(widget); };
-  if (ImGui::CollapsingHeader("Water", ImGuiTreeNodeFlags_DefaultOpen)) changed |= draw_style_choice();
-  if (ImGui::CollapsingHeader("Colours", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (ImGui::CollapsingHeader("Water", ImGuiTreeNodeFlags_DefaultOpen)) {
+    ImGui::SetNextItemWidth(wide);
+    changed |= draw_style_choice();
     changed |= draw_colour_choice();
     ImGui::SetNextItemWidth(wide);
     changed |= choose("map", view_.look.colour_map, colour_map_names(), marking);

@@ -175,18 +175,19 @@ void LevelSet::link_bricks(const std::vector<Occupied>& occupied) {
   keys_.clear();
   bricks_.clear();
   if (occupied.empty()) return;
-  std::array<int, 3> last{INT32_MIN, INT32_MIN, INT32_MIN};
-  first_ = {INT32_MAX, INT32_MAX, INT32_MAX};
+  // A rim of two, so that neighbours of bricks beside occupied ones have keys of their own.
+  std::array<int, 3> first{INT32_MAX, INT32_MAX, INT32_MAX}, last{INT32_MIN, INT32_MIN, INT32_MIN};
   for (const Occupied& o : occupied) {
     for (std::size_t a = 0; a < 3; ++a) {
-      first_[a] = std::min(first_[a], o.at[a] - 1);
-      last[a] = std::max(last[a], o.at[a] + 1);
+      first[a] = std::min(first[a], o.at[a] - 2);
+      last[a] = std::max(last[a], o.at[a] + 2);
     }
   }
-  for (std::size_t a = 0; a < 2; ++a) extent_[a] = static_cast<std::uint64_t>(last[a + 1] - first_[a + 1] + 1);
+  const std::uint64_t along_z = static_cast<std::uint64_t>(last[2] - first[2] + 1),
+                      along_y = static_cast<std::uint64_t>(last[1] - first[1] + 1) * along_z;
   const auto key = [&](std::array<int, 3> at) {
-    const auto from = [&](std::size_t a) { return static_cast<std::uint64_t>(at[a] - first_[a]); };
-    return (from(0) * extent_[0] + from(1)) * extent_[1] + from(2);
+    const auto from = [&](std::size_t a) { return static_cast<std::uint64_t>(at[a] - first[a]); };
+    return from(0) * along_y + from(1) * along_z + from(2);
   };
   const auto within = [&](std::array<int, 3> at) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -205,42 +206,49 @@ void LevelSet::link_bricks(const std::vector<Occupied>& occupied) {
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   bricks_.resize(keys_.size());
 
+  std::vector<std::uint8_t> full(keys_.size());
+  for (std::size_t b = 0, next = 0; next < occupied.size(); ++next) {  // both rise
+    const std::uint64_t k = key(occupied[next].at);
+    while (b < keys_.size() && keys_[b] < k) ++b;
+    if (b < keys_.size() && keys_[b] == k) full[b] = occupied[next].full;
+  }
   std::array<std::uint8_t, 27> touching;
   for_places_around([&](int dx, int dy, int dz, std::size_t k) { touching[k] = touching_octants(dx, dy, dz); });
-  std::vector<std::uint8_t> full(keys_.size());
-  for (const Occupied& o : occupied) {
-    if (const auto b = brick_at(o.at); b >= 0) full[static_cast<std::size_t>(b)] = o.full;
-  }
-#pragma omp parallel for schedule(static)
-  for (std::size_t b = 0; b < bricks_.size(); ++b) {
-    Brick& brick = bricks_[b];
-    const std::uint64_t k = keys_[b];
-    brick.at = {first_[0] + static_cast<int>(k / (extent_[0] * extent_[1])),
-                first_[1] + static_cast<int>(k / extent_[1] % extent_[0]),
-                first_[2] + static_cast<int>(k % extent_[1])};
-    brick.full = true;
-    for (std::size_t a = 0; a < 3; ++a) {
-      if ((cut_low_[a] && brick.at[a] == 0) || (cut_high_[a] && side * (brick.at[a] + 1) > cells_[a]))
-        brick.full = false;
+  parallel_blocks(bricks_.size(), [&](std::size_t begin, std::size_t end) {
+    // Where the rows of three before, beside and after a brick begin; they move on with it.
+    std::array<std::size_t, 9> rows;
+    const auto row_key = [&](std::size_t b, std::size_t row) {
+      return keys_[b] - along_y - along_z - 1 + row / 3 * along_y + row % 3 * along_z;
+    };
+    for (std::size_t row = 0; row < 9; ++row) {
+      rows[row] =
+          static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), row_key(begin, row)) - keys_.begin());
     }
-    for_places_around([&](int dx, int dy, int dz, std::size_t n) {
-      const auto near = brick_at({brick.at[0] + dx, brick.at[1] + dy, brick.at[2] + dz});
-      brick.near[n] = near;
-      if (near < 0 || (full[static_cast<std::size_t>(near)] & touching[n]) != touching[n]) brick.full = false;
-    });
-  }
-}
-
-std::int32_t LevelSet::brick_at(std::array<int, 3> at) const {
-  std::uint64_t key = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (at[a] < first_[a]) return -1;
-    const auto from = static_cast<std::uint64_t>(at[a] - first_[a]);
-    if (a > 0 && from >= extent_[a - 1]) return -1;
-    key = a == 0 ? from : key * extent_[a - 1] + from;
-  }
-  const auto found = std::lower_bound(keys_.begin(), keys_.end(), key);
-  return found != keys_.end() && *found == key ? static_cast<std::int32_t>(found - keys_.begin()) : -1;
+    for (std::size_t b = begin; b < end; ++b) {
+      Brick& brick = bricks_[b];
+      const std::uint64_t k = keys_[b];
+      brick.at = {first[0] + static_cast<int>(k / along_y), first[1] + static_cast<int>(k % along_y / along_z),
+                  first[2] + static_cast<int>(k % along_z)};
+      brick.full = true;
+      for (std::size_t a = 0; a < 3; ++a) {
+        if ((cut_low_[a] && brick.at[a] == 0) || (cut_high_[a] && side * (brick.at[a] + 1) > cells_[a]))
+          brick.full = false;
+      }
+      for (std::size_t row = 0; row < 9; ++row) {
+        const std::uint64_t from = row_key(b, row);
+        std::size_t& at = rows[row];
+        while (at < keys_.size() && keys_[at] < from) ++at;
+        std::size_t found = at;
+        for (std::size_t z = 0; z < 3; ++z) {
+          const std::size_t n = 3 * row + z;
+          const bool there = found < keys_.size() && keys_[found] == from + z;
+          brick.near[n] = there ? static_cast<std::int32_t>(found) : -1;
+          if (!there || (full[found] & touching[n]) != touching[n]) brick.full = false;
+          if (there) ++found;
+        }
+      }
+    }
+  });
 }
 
 namespace {

@@ -104,7 +104,6 @@ class LevelSet {
   void collect_sources(const SurfaceSources& sources, const Domain& domain);
   void find_bricks(double spacing);
   void link_bricks(const std::vector<Occupied>& occupied);
-  std::int32_t brick_at(std::array<int, 3> at) const;
   void sum_sources(const SurfaceSources& sources);
   void cut_off(std::size_t brick);
 
@@ -121,8 +120,6 @@ class LevelSet {
   Grid grid_;  // of the sources, one cell a brick
 
   std::vector<std::uint64_t> keys_;  // of the bricks, rising
-  std::array<std::uint64_t, 2> extent_{};
-  std::array<int, 3> first_{};
   std::vector<Brick> bricks_;
   Array<float> values_;
   std::vector<Bits> inside_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/core/simd.h"
 
 namespace curlew {
 namespace {
@@ -26,7 +27,8 @@ void Smoother::find_rings(const SurfaceMesh& mesh) {
     for (const std::uint32_t v : t) ++first_[v + 1];
   }
   for (std::size_t v = 0; v < n; ++v) first_[v + 1] += first_[v];
-  ring_.resize(3 * mesh.triangles.size());
+  next_.resize(3 * mesh.triangles.size());
+  previous_.resize(next_.size());
   const int parts = omp_get_max_threads();
 #pragma omp parallel for schedule(static, 1)
   for (int part = 0; part < parts; ++part) {
@@ -38,29 +40,47 @@ void Smoother::find_rings(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> at(first_.begin() + begin, first_.begin() + end);
     for (const auto& t : mesh.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        if (t[k] >= begin && t[k] < end) ring_[at[t[k] - begin]++] = {t[(k + 1) % 3], t[(k + 2) % 3]};
+        if (t[k] < begin || t[k] >= end) continue;
+        const std::uint32_t place = at[t[k] - begin]++;
+        next_[place] = t[(k + 1) % 3];
+        previous_[place] = t[(k + 2) % 3];
       }
     }
   }
 }
 
-void Smoother::step(const std::vector<Vec3>& from, std::vector<Vec3>& to, float share) const {
-  parallel_for(from.size(), [&](std::size_t v) {
+// How much each vertex may move.
+void Smoother::find_freedom(const std::vector<Vec3>& position) {
+  freedom_.resize(position.size());
+  parallel_for(position.size(), [&](std::size_t v) {
     Vec3 sum;
     float length2 = 0;
     for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k) {
-      const Vec3 side = from[ring_[k].next] - from[v];
+      const Vec3 side = position[next_[k]] - position[v];
       sum += side;
       length2 += dot(side, side);
     }
     const float number = static_cast<float>(first_[v + 1] - first_[v]);
-    const Vec3 away = (1 / number) * sum;
-    const float bend = dot(away, away) * number / std::max(length2, 1e-30f);
-    Vec3 moved = from[v] + share * std::max(0.0f, 1 - sharpest * bend) * away;
-    for (int axis = 0; axis < 3; ++axis) {
-      moved[axis] = (held_[v] >> axis & 1) != 0 ? from[v][axis] : std::clamp(moved[axis], low_[axis], high_[axis]);
+    const float bend = dot(sum, sum) / (number * std::max(length2, 1e-30f));
+    freedom_[v] = std::max(0.0f, 1 - sharpest * bend);
+  });
+}
+
+// All four numbers of a vector at once; the fourth is not used.
+void Smoother::step(const std::vector<Vec3>& from, std::vector<Vec3>& to, float share) const {
+  const auto at = [&](std::size_t v) { return *reinterpret_cast<const f4*>(&from[v]); };
+  const f4 low{low_.x, low_.y, low_.z, -INFINITY}, high{high_.x, high_.y, high_.z, INFINITY};
+  parallel_for(from.size(), [&](std::size_t v) {
+    f4 sum{};
+    const std::uint32_t begin = first_[v], end = first_[v + 1];
+    for (std::uint32_t k = begin; k < end; ++k) sum += at(next_[k]);
+    const f4 here = at(v);
+    f4 moved = here + share * freedom_[v] * ((1 / static_cast<float>(end - begin)) * sum - here);
+    moved = moved < low ? low : moved > high ? high : moved;
+    for (int axis = 0; held_[v] != 0 && axis < 3; ++axis) {
+      if ((held_[v] >> axis & 1) != 0) moved[axis] = here[axis];
     }
-    to[v] = moved;
+    *reinterpret_cast<f4*>(&to[v]) = moved;
   });
 }
 
@@ -68,8 +88,7 @@ void Smoother::find_normals(SurfaceMesh& mesh) const {
   parallel_for(mesh.position.size(), [&](std::size_t v) {
     Vec3 sum;
     for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k)
-      sum +=
-          cross(mesh.position[ring_[k].next] - mesh.position[v], mesh.position[ring_[k].previous] - mesh.position[v]);
+      sum += cross(mesh.position[next_[k]] - mesh.position[v], mesh.position[previous_[k]] - mesh.position[v]);
     const float l = length(sum);
     if (l > 0) mesh.normal[v] = (1 / l) * sum;
   });
@@ -92,6 +111,7 @@ void Smoother::run(SurfaceMesh& mesh, int passes, const Domain& domain) {
     });
   }
   other_.resize(mesh.position.size());
+  find_freedom(mesh.position);
   for (int pass = 0; pass < passes; ++pass) {
     step(mesh.position, other_, inwards);
     step(other_, mesh.position, outwards);
@@ -100,8 +120,8 @@ void Smoother::run(SurfaceMesh& mesh, int passes, const Domain& domain) {
 }
 
 std::size_t Smoother::bytes() const {
-  return first_.capacity() * sizeof(std::uint32_t) + ring_.capacity() * sizeof(Corner) +
-         other_.capacity() * sizeof(Vec3) + held_.capacity();
+  return first_.capacity() * sizeof(std::uint32_t) + 2 * next_.capacity() * sizeof(std::uint32_t) +
+         freedom_.capacity() * sizeof(float) + other_.capacity() * sizeof(Vec3) + held_.capacity();
 }
 
 }  // namespace curlew

@@ -21,15 +21,13 @@ class Smoother {
 
  private:
   void find_rings(const SurfaceMesh& mesh);
+  void find_freedom(const std::vector<Vec3>& position);
   void step(const std::vector<Vec3>& from, std::vector<Vec3>& to, float share) const;
   void find_normals(SurfaceMesh& mesh) const;
 
-  struct Corner {
-    std::uint32_t next, previous;  // the triangle's other two
-  };
-
-  std::vector<std::uint32_t> first_;  // of a vertex's triangles in ring_
-  std::vector<Corner> ring_;
+  std::vector<std::uint32_t> first_;            // of a vertex's triangles in the next two
+  std::vector<std::uint32_t> next_, previous_;  // their other corners
+  std::vector<float> freedom_;
   std::vector<Vec3> other_;
   Vec3 low_, high_;                 // where the water must end
   std::vector<std::uint8_t> held_;  // bit an axis along which the vertex must not move

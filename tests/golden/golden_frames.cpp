@@ -15,9 +15,9 @@
 #include <filesystem>
 #include <map>
 
+#include "render/picture_difference.h"
 #include "render/png.h"
 #include "tests/app/run_files.h"
-#include "tests/golden/picture.h"
 #include "tests/io/temporary_folder.h"
 
 using namespace curlew;
@@ -62,22 +62,15 @@ const Frames& frames() {
   return all;
 }
 
-struct Tolerance {
-  int channel = 0;
-  double share = 0, mean = 0, ssim = 0;
-
-  explicit Tolerance(const json& data)
-      : channel(data.at("channel")), share(data.at("share")), mean(data.at("mean")), ssim(data.at("ssim")) {}
-  bool accepts(const Difference& d) const {
-    return d.same_size && d.share <= share && d.mean <= mean && d.ssim >= ssim;
-  }
-};
-
-Tolerance tolerance(const json& data, const json& made_by) {
-  return Tolerance(data.at(data.at("made_by") == made_by ? "tolerance" : "tolerance_elsewhere"));
+PictureTolerance read_tolerance(const json& data) {
+  return {data.at("channel"), data.at("share"), data.at("mean"), data.at("ssim")};
 }
 
-std::string text(const Difference& d) {
+PictureTolerance tolerance(const json& data, const json& made_by) {
+  return read_tolerance(data.at(data.at("made_by") == made_by ? "tolerance" : "tolerance_elsewhere"));
+}
+
+std::string text(const PictureDifference& d) {
   return std::to_string(100 * d.share) + " % of the pixels beyond the channel's tolerance, mean difference " +
          std::to_string(d.mean) + ", largest " + std::to_string(d.largest) + ", SSIM " + std::to_string(d.ssim);
 }
@@ -92,7 +85,7 @@ void accept(const std::string& name, const Frames& made) {
 void keep_difference(const std::string& name, const Image& picture, const Image& golden) {
   fs::create_directories("golden_differences");
   write_png("golden_differences/" + name + ".new.png", picture);
-  write_png("golden_differences/" + name + ".difference.png", difference_picture(picture, golden));
+  write_png("golden_differences/" + name + ".difference.png", difference_picture(picture, golden, 4));
 }
 
 // A change that a person would see must not pass, with the loose tolerance either.
@@ -102,8 +95,8 @@ void check_refused(const json& scene, const std::vector<std::string>& which = na
     const json data = metadata(name);
     const Image golden = read_png(golden_folder + "/" + name + ".png");
     for (const char* kind : {"tolerance", "tolerance_elsewhere"}) {
-      const Tolerance allowed(data.at(kind));
-      const Difference d = difference(other.pictures.at(name), golden, allowed.channel);
+      const PictureTolerance allowed = read_tolerance(data.at(kind));
+      const PictureDifference d = picture_difference(other.pictures.at(name), golden, allowed.channel);
       INFO(name << ", " << kind << ": " << text(d));
       CHECK_FALSE(allowed.accepts(d));
     }
@@ -115,8 +108,8 @@ void check_same(const std::string& name, const Frames& made) {
   const json data = metadata(name);
   const Image golden = read_png(golden_folder + "/" + name + ".png");
   const Image& picture = made.pictures.at(name);
-  const Tolerance allowed = tolerance(data, made.made_by);
-  const Difference d = difference(picture, golden, allowed.channel);
+  const PictureTolerance allowed = tolerance(data, made.made_by);
+  const PictureDifference d = picture_difference(picture, golden, allowed.channel);
   INFO(name << ": " << text(d) << "; made by " << data.at("made_by") << ", here " << made.made_by);
   const bool same = allowed.accepts(d);
   if (!same) keep_difference(name, picture, golden);
@@ -140,7 +133,8 @@ TEST_CASE("each view looks as it did") {
 TEST_CASE("tolerances leave room elsewhere, and none of them for much") {
   for (const std::string& name : names) {
     const json data = metadata(name);
-    const Tolerance here(data.at("tolerance")), elsewhere(data.at("tolerance_elsewhere"));
+    const PictureTolerance here = read_tolerance(data.at("tolerance")),
+                           elsewhere = read_tolerance(data.at("tolerance_elsewhere"));
     CHECK(here.share <= elsewhere.share);
     CHECK(here.mean <= elsewhere.mean);
     CHECK(here.ssim >= elsewhere.ssim);
@@ -186,14 +180,15 @@ TEST_CASE("SSIM and the other measures know equal, noisy and other pictures apar
       }
     }
   }
-  const Difference none = difference(a, a, 0), little = difference(a, noisy, 0), much = difference(a, other, 0);
+  const PictureDifference none = picture_difference(a, a, 0), little = picture_difference(a, noisy, 0),
+                          much = picture_difference(a, other, 0);
   CHECK(none.share == 0);
   CHECK(none.ssim == Approx(1));
   CHECK(little.share == Approx(0.2).margin(0.01));
   CHECK(little.mean == Approx(0.4).margin(0.02));
   CHECK(little.ssim > 0.99);
-  CHECK(difference(a, noisy, 2).share == 0);
+  CHECK(picture_difference(a, noisy, 2).share == 0);
   CHECK(much.share == Approx(0.5).margin(0.05));
   CHECK(much.ssim < 0.5);
-  CHECK_FALSE(difference(a, Image(64, 47), 0).same_size);
+  CHECK_FALSE(picture_difference(a, Image(64, 47), 0).same_size);
 }

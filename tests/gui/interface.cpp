@@ -244,6 +244,7 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
                          "viscosity.nu",
                          "viscosity.form",
                          "label viscosity.nu",
+                         "look",
                          "colour by",
                          "map",
                          "bodies",
@@ -415,6 +416,41 @@ TEST_CASE("a colour scale forgets the field before") {
     desk.settle();
   }
   CHECK((*desk.interface().view().look.range)[1] < 100);  // m/s, not Pa
+}
+
+TEST_CASE("the look of the water is chosen, and its surface comes with the frames") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open("free_fall");
+  CHECK(desk.interface().frame()->surface == nullptr);
+  const auto choose_look = [&](const std::string& name) {
+    desk.click("look");
+    desk.draw();
+    desk.click("look " + name);
+  };
+  choose_look("water");
+  desk.settle();
+  CHECK(desk.interface().view().look.style == LookStyle::water);
+  REQUIRE(desk.interface().frame()->surface != nullptr);
+  const std::size_t fine = desk.interface().frame()->surface->triangles.size();
+  desk.session.set_parameters([&] {
+    Parameters p = desk.parameters;
+    p.surface.cell = 2;
+    return p;
+  }());
+  desk.settle();
+  CHECK(desk.interface().frame()->surface->triangles.size() < fine / 2);
+  desk.click("step");
+  desk.settle();
+  CHECK(desk.interface().frame()->surface != nullptr);
+  desk.keep("water");
+  choose_look("fast-water");
+  desk.settle();
+  CHECK(desk.interface().frame()->surface == nullptr);
+  CHECK(desk.interface().frame()->value.empty());
+  choose_look("particles");
+  desk.settle();
+  CHECK_FALSE(desk.interface().frame()->value.empty());
 }
 
 TEST_CASE("saving does not replace what it has not written") {

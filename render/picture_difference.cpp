@@ -1,16 +1,10 @@
-#include "tests/golden/picture.h"
+#include "render/picture_difference.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
 
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
-
-namespace curlew::test {
+namespace curlew {
 namespace {
 
 double luma(const std::uint8_t* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }
@@ -43,18 +37,8 @@ double mean_similarity(const Image& a, const Image& b) {
 
 }  // namespace
 
-Image read_png(const std::string& file) {
-  int width = 0, height = 0, channels = 0;
-  std::uint8_t* pixels = stbi_load(file.c_str(), &width, &height, &channels, 4);
-  if (pixels == nullptr) throw std::runtime_error("cannot read " + file + ": " + stbi_failure_reason());
-  Image image(width, height);
-  std::copy(pixels, pixels + image.rgba.size(), image.rgba.begin());
-  stbi_image_free(pixels);
-  return image;
-}
-
-Difference difference(const Image& a, const Image& b, int channel) {
-  Difference d;
+PictureDifference picture_difference(const Image& a, const Image& b, int channel) {
+  PictureDifference d;
   d.same_size = a.width == b.width && a.height == b.height;
   if (!d.same_size) return {1, 255, 255, 0, false};
   std::size_t beyond = 0;
@@ -76,14 +60,14 @@ Difference difference(const Image& a, const Image& b, int channel) {
   return d;
 }
 
-Image difference_picture(const Image& a, const Image& b) {
+Image difference_picture(const Image& a, const Image& b, int times) {
   Image image = a;
   if (a.width != b.width || a.height != b.height) return image;
   for (std::size_t k = 0; k < a.rgba.size(); ++k) {
     const int difference = std::abs(int{a.rgba[k]} - int{b.rgba[k]});
-    image.rgba[k] = k % 4 == 3 ? std::uint8_t{255} : static_cast<std::uint8_t>(std::min(255, 64 + 4 * difference));
+    image.rgba[k] = k % 4 == 3 ? std::uint8_t{255} : static_cast<std::uint8_t>(std::min(255, 64 + times * difference));
   }
   return image;
 }
 
-}  // namespace curlew::test
+}  // namespace curlew

@@ -1,0 +1,63 @@
+// `curlew compare GOLDEN NEW`: what changed between two runs, in a sentence: a parameter, the rendering, or the
+// simulation, and then in which step and pass.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run_record.h"
+#include "render/picture_difference.h"
+
+namespace curlew {
+
+// How far a number of the last row may be off: by a share of the larger of both, or by `absolute`.
+struct StateTolerance {
+  std::string column;
+  double share = 0, absolute = 0;
+};
+
+// GOLDEN/compare.json, or what stands for it. Bits count where both runs come from one compiler and instruction set,
+// the state's tolerances elsewhere; `tight` counts for pictures of the same state by the same renderer, `loose`
+// elsewhere.
+struct CompareTolerances {
+  std::vector<StateTolerance> state;
+  PictureTolerance tight, loose;
+};
+CompareTolerances default_tolerances();
+// Throws InputError with the place of what is wrong.
+CompareTolerances read_tolerances(const std::filesystem::path& file);
+
+struct StateRow {
+  std::string column, golden, now;
+  double difference = 0;  // of both as a share of the larger
+  bool allowed = true;
+};
+
+struct PictureRow {
+  std::string name;
+  PictureDifference difference;
+  bool allowed = true;
+};
+
+struct Comparison {
+  enum class Kind { identical, within_tolerance, parameter, rendering, simulation };
+  Kind kind = Kind::identical;
+  std::string verdict;                // one sentence
+  std::vector<std::string> warnings;  // each one sentence
+  std::vector<std::string> changed;   // "parameters.viscosity.nu is 0 in GOLDEN and 0.01 in NEW"
+  std::vector<StateRow> state;        // of the last rows
+  std::vector<PictureRow> pictures;
+  CompareTolerances tolerances;
+  PictureTolerance picture_tolerance;  // the one that was applied
+
+  bool passed() const { return kind == Kind::identical || kind == Kind::within_tolerance; }
+};
+
+Comparison compare_runs(const RunRecord& golden, const RunRecord& now);
+
+// A page that needs no other file: verdict, golden and new pictures with their difference, numbers, versions, and the
+// command that accepts the new run.
+std::string comparison_page(const Comparison& comparison, const RunRecord& golden, const RunRecord& now);
+
+}  // namespace curlew

@@ -1,0 +1,42 @@
+// What a finished run left in its folder, read back: for comparing two of them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/scene/json.h"
+
+namespace curlew {
+
+// A CSV table with its cells as text; all rows have as many as there are columns.
+struct TextTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  // The column's number, or nothing.
+  std::optional<std::size_t> column(const std::string& name) const;
+};
+
+// Throws InputError where the file is missing, empty or ragged.
+TextTable read_text_table(const std::filesystem::path& file);
+
+struct RunRecord {
+  std::filesystem::path folder;
+  JsonNode json;                    // run.json
+  TextTable stats;                  // stats.csv, at least one row
+  std::optional<TextTable> passes;  // passes.csv
+  std::vector<std::string> frames;  // names in frames/, in order
+
+  std::string state_hash() const;  // of the last row
+  // An item of run.json: found({"program", "renderer"}); null where there is none.
+  const JsonNode* found(std::initializer_list<const char*> path) const;
+  std::string text(std::initializer_list<const char*> path) const;  // empty where there is none
+};
+
+// Throws InputError, naming the file, where the folder is not that of a finished run.
+RunRecord read_run(const std::filesystem::path& folder);
+
+}  // namespace curlew
