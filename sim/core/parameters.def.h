@@ -143,7 +143,7 @@
        "Reach of a particle in the surface's level set, in spacings: larger is smoother and loses thin sheets.") \
   REAL(iso, 0.5, 0.3, 0.7, 0.05, 0.95, "1", "", live,                                                            \
        "Level of the surface, as a share of full water: half keeps the volume.")                                 \
-  COUNT(smoothing, 3, 0, 20, 0, 1000, "1", "", live,                                                             \
+  COUNT(smoothing, 2, 0, 20, 0, 1000, "1", "", live,                                                             \
         "Smoothing passes over the surface's mesh, which keep its volume (Taubin 1995).")
 
 // group name, struct, table, heading

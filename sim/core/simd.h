@@ -1,6 +1,6 @@
 // Eight neighbours at a time, in the compiler's own vector types (gcc and clang), so that one source serves any
-// instruction set. Only three operations have no such spelling and name AVX2: reciprocal square root, mask and
-// compress; elsewhere they are plain loops.
+// instruction set. Only four operations have no such spelling and name AVX2: reciprocal square root, rounding, mask
+// and compress; elsewhere they are plain loops.
 #pragma once
 
 #include <bit>
@@ -92,6 +92,17 @@ inline f8 load(const float* from) {
   f8 v;
   __builtin_memcpy(&v, from, sizeof v);
   return v;
+}
+
+// A bit for each lane of `chosen` that is set (all ones).
+inline std::uint8_t lanes(i8 chosen) {
+#if defined(__AVX2__)
+  return static_cast<std::uint8_t>(_mm256_movemask_ps((__m256)chosen));
+#else
+  unsigned bits = 0;
+  for (unsigned lane = 0; lane < 8; ++lane) bits |= chosen[lane] != 0 ? 1u << lane : 0u;
+  return static_cast<std::uint8_t>(bits);
+#endif
 }
 
 #if defined(__AVX2__)

@@ -271,7 +271,6 @@ void add_source(const Local& s, f8 (&sum)[LevelSet::side * LevelSet::side]) {
       f8 t;
       if constexpr (round) {
         const float across = xx + s.yy * dy * dy;
-        if (across >= 1) continue;
         t = max(along - across, f8{});
       } else {
         const float across = xx + s.yy * dy * dy + 2 * s.xy * dx * dy, tilt = 2 * (s.yz * dy + s.zx * dx);
@@ -356,7 +355,7 @@ void LevelSet::sum_sources(const SurfaceSources& sources) {
       cut_off(b);
       for (int x = 0; x < side; ++x) {
         std::uint64_t word = 0;
-        for (int k = 0; k < 64; ++k) word |= std::uint64_t{values[64 * x + k] > 0} << k;
+        for (int y = 0; y < side; ++y) word |= std::uint64_t{lanes(load(&values[64 * x + 8 * y]) > 0.0f)} << (8 * y);
         inside_[b][static_cast<std::size_t>(x)] = word;
       }
     }

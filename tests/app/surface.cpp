@@ -82,6 +82,16 @@ TEST_CASE("`render` draws the frames of a run again, as it did or in another loo
   }
 }
 
+TEST_CASE("a scene whose body is a mesh is drawn again from anywhere") {
+  const TemporaryFolder folder;
+  run_in(folder.path(), "run rock --particles 3k --steps 2 --particles-out vtk --frames --size 160x90", "rock");
+  const std::string before = file_text(folder / "rock/frames/000000.png");
+  const Outcome outcome = curlew_in(folder, "render rock --size 160x90 --overwrite --quiet");
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(file_text(folder / "rock/frames/000000.png") == before);
+}
+
 TEST_CASE("mesh and render say what they lack") {
   const TemporaryFolder folder;
   check_refused(folder, "mesh nowhere", "nowhere: there is no such folder, expected one of a run");

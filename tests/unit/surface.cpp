@@ -320,6 +320,21 @@ TEST_CASE("vertices have the velocity of the water") {
   CHECK(maker.make({particles, {}}, scene).velocity.empty());
 }
 
+TEST_CASE("a particle far out, or nowhere, does no harm") {
+  Scene scene = scene_with();
+  for (Wall& wall : scene.domain.walls) wall.kind = WallKind::open;
+  std::vector<Vec3> particles = lattice(scene, ball(0.3));
+  const SurfaceMesh alone = surface(scene, particles);
+  for (const float far : {500.0f, 1e30f, NAN, -INFINITY}) {
+    CAPTURE(far);
+    particles.push_back({0, far, 0});
+    const SurfaceMesh mesh = surface(scene, particles);
+    particles.pop_back();
+    CHECK(unpaired_sides(mesh) == 0);
+    CHECK(enclosed_volume(mesh) == Approx(enclosed_volume(alone)).epsilon(0.002));
+  }
+}
+
 TEST_CASE("no water, no surface") {
   const Scene scene = scene_with();
   const SurfaceMesh mesh = surface(scene, {});
