@@ -71,6 +71,7 @@ class Bytes {
   std::size_t at() const { return at_; }
 
   std::uint32_t word(std::size_t at, std::endian order) const {
+    if (at + 4 > text_.size()) fail("cut short in its particles");
     std::uint32_t value;
     std::memcpy(&value, text_.data() + at, sizeof value);
     return order == std::endian::native ? value : __builtin_bswap32(value);

@@ -67,7 +67,6 @@ class LevelSet {
 
   // Points lie at low + (g - 1/2) cell for whole g. Cells are as wide as asked for or a little less: a whole number of
   // them fits into the domain, whose faces lie midway between points.
-  Vec3d low() const { return low_; }
   Vec3d cell() const { return cell_; }
   Vec3 place(const Brick& brick, float x, float y, float z) const {
     const auto along = [&](int axis, float p) {

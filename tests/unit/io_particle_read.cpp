@@ -86,4 +86,8 @@ TEST_CASE("what is no particle file of ours is refused") {
            "ply\nformat binary_little_endian 1.0\ncomment Curlew\nelement vertex 999999999999\nend_header\n");
   CHECK_THROWS_WITH(read_particles(folder / "c.ply"),
                     Catch::Contains("expected a number of particles that it can hold"));
+  put_file(folder / "d.ply",
+           "ply\nformat binary_little_endian 1.0\ncomment Curlew\nelement vertex 1\nproperty float vx\nproperty float "
+           "density\nproperty uint id\nproperty float x\nend_header\n0123456789abcdef");
+  CHECK_THROWS_WITH(read_particles(folder / "d.ply"), Catch::EndsWith("cut short in its particles"));
 }

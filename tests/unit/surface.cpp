@@ -235,6 +235,45 @@ TEST_CASE("an open face lets the water stand out") {
   CHECK(farthest == Approx(1.3).margin(0.03));
 }
 
+TEST_CASE("a source with a matrix of its own is an ellipsoid, turned as the matrix says, and mirrored at walls") {
+  Scene scene = scene_with();
+  // |M x|^2 with semi-axes a, b, c along u, v, w; phi = (1 - |M x|^2)^3 - 1/2.
+  const double a = 0.4, b = 0.32, c = 0.26, angle = 0.6;
+  const Vec3d u{std::cos(angle), std::sin(angle), 0}, v{-std::sin(angle), std::cos(angle), 0}, w{0, 0, 1};
+  const auto entry = [&](int i, int j) {
+    return u[i] * u[j] / (a * a) + v[i] * v[j] / (b * b) + w[i] * w[j] / (c * c);
+  };
+  const auto reach = [&](int i) { return std::sqrt(u[i] * u[i] * a * a + v[i] * v[i] * b * b + w[i] * w[i] * c * c); };
+  const SourceShape shape{to_float({entry(0, 0), entry(1, 1), entry(2, 2)}),
+                          to_float({entry(1, 2), entry(2, 0), entry(0, 1)}), to_float({reach(0), reach(1), reach(2)})};
+  const std::vector<SourceShape> shapes{shape, shape};
+  const double q = std::sqrt(1 - std::cbrt(0.5)), volume = 4.0 / 3 * std::numbers::pi * q * q * q * a * b * c;
+  const auto mesh_of = [&](const std::vector<Vec3>& places) {
+    LevelSet level_set;
+    level_set.build({places, {shapes.data(), places.size()}, 0.04}, scene.domain, 0.05, 0.5);
+    SurfaceMesh mesh;
+    Polygoniser().run(level_set, mesh);
+    return mesh;
+  };
+  Vec3 one{0.1f, -0.2f, 0.3f}, other{-0.5f, 0.5f, -0.4f};
+  one.w = other.w = 1;
+  const SurfaceMesh mesh = mesh_of({one, other});
+  CHECK(unpaired_sides(mesh) == 0);
+  CHECK(enclosed_volume(mesh) == Approx(2 * volume).epsilon(0.08));
+  for (const Vec3& p : mesh.position) {
+    const Vec3d r = to_double(p - (length(p - one) < length(p - other) ? one : other));
+    const double m = std::pow(dot(r, u) / a, 2) + std::pow(dot(r, v) / b, 2) + std::pow(dot(r, w) / c, 2);
+    CHECK(std::sqrt(m) == Approx(q).epsilon(0.08));
+  }
+  // Half in the wall at x = 1: its image fills the other half, and half of both is inside.
+  Vec3 in_wall{1, 0, 0};
+  in_wall.w = 0.5f;
+  const SurfaceMesh half = mesh_of({in_wall, one});
+  CHECK(unpaired_sides(half) == 0);
+  CHECK(enclosed_volume(half) > volume);
+  CHECK(enclosed_volume(half) < 1.6 * volume);
+}
+
 TEST_CASE("what is deep in the water is not summed, and the surface is the same") {
   Scene scene = scene_with(0.01);
   std::vector<Vec3> particles = lattice(scene, box({-1, -1, -1}, {-0.2, -0.3, -0.1}));
