@@ -15,7 +15,6 @@ namespace {
 
 constexpr int side = LevelSet::side;
 constexpr std::uint64_t last_z = 0x8080808080808080u;  // bits with z = 7
-constexpr std::uint64_t last_y = 0xff00000000000000u;  // bits with y = 7
 using Bits = LevelSet::Bits;
 
 // The words of a brick and of those after it, as far as cells reach: word x of (y, z) shifted by one where asked.
