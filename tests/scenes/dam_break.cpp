@@ -41,17 +41,35 @@ TEST_CASE("a dam break stays incompressible, inside the box, and gains no energy
   check_collapse(run);
 }
 
-// With so few particles the impact on the far wall counts: what the density solve pushes apart keeps its speed. Round-off
-// decides by how much: tolerances that differ by a thousandth, and two compilers, give 0.1 to 0.7 %.
-TEST_CASE("a dam break gains little energy at smaller steps and tighter tolerances", "[scene]") {
+// With so few particles the impact on the far wall counts: what the density solve pushes apart keeps its speed.
+TEST_CASE("a dam break gains little energy at smaller steps and with Jacobi iteration", "[scene]") {
   Scene scene = dam_break(16);
   SECTION("a third of the time step") { scene.parameters.time.cfl = 0.1; }
-  SECTION("a hundredth of the divergence tolerance") { scene.parameters.pressure.divergence_tolerance = 1e-5; }
   SECTION("Jacobi iteration") { scene.parameters.pressure.solver = PressureParameters::solver_t::jacobi; }
   Run run(scene);
   run.simulate(1);
-  CHECK(run.energy_rise(0.5) <= 1e-2);
+  CHECK(run.energy_rise(0.5) <= 6e-3);
   CHECK_NOFAIL(run.energy_rise(0.5) <= 1e-3);  // the aim
+}
+
+// There round-off decides how much the impact gives: tolerances that differ by a thousandth, and two compilers, give
+// 0.1 to 0.7 %. So the bound holds for the mean of several runs; none has more energy than at the start.
+TEST_CASE("a dam break gains little energy at a hundredth of the divergence tolerance", "[scene]") {
+  double mean = 0;
+  constexpr double tolerances[] = {0.996e-5, 0.998e-5, 1e-5, 1.003e-5};
+  for (const double tolerance : tolerances) {
+    Scene scene = dam_break(16);
+    scene.parameters.pressure.divergence_tolerance = tolerance;
+    Run run(scene);
+    run.simulate(1);
+    const double rise = run.energy_rise(0.5);
+    CAPTURE(tolerance, rise);
+    mean += rise / static_cast<double>(std::size(tolerances));
+    const double start = run.history().front().sums.mechanical();
+    CHECK(run.largest([](const Moment& m) { return m.sums.mechanical(); }) <= start * (1 + 1e-6));
+  }
+  CHECK(mean <= 6e-3);
+  CHECK_NOFAIL(mean <= 1e-3);  // the aim
 }
 
 TEST_CASE("a dam break with 24k particles stays incompressible and gains no energy", "[scene][slow]") {

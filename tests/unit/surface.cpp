@@ -276,7 +276,12 @@ TEST_CASE("a source with a matrix of its own is an ellipsoid, turned as the matr
 
 TEST_CASE("what is deep in the water is not summed, and the surface is the same") {
   Scene scene = scene_with(0.01);
-  std::vector<Vec3> particles = lattice(scene, box({-1, -1, -1}, {-0.2, -0.3, -0.1}));
+  const Inside block = box({-1, -1, -1}, {-0.2, -0.3, -0.1});
+  // Foam has its holes everywhere, and nothing of it may be left out.
+  const bool foam = GENERATE(false, true);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> draw(0, 1);
+  std::vector<Vec3> particles = lattice(scene, [&](Vec3d p) { return block(p) && (!foam || draw(random) < 0.5); });
   for (Vec3& p : particles) p.w = 0.2f;
   const SourceShape shape = round_shape(2 * scene.spacing());
   const auto build = [&](double spacing, std::size_t& full) {
@@ -292,7 +297,7 @@ TEST_CASE("what is deep in the water is not summed, and the surface is the same"
   const SurfaceMesh mesh = build(scene.spacing(), skipped);
   const SurfaceMesh whole = build(0.01 * scene.spacing(), none);  // as if nothing were ever full
   CHECK(none == 0);
-  CHECK(skipped > 50);
+  CHECK((foam ? skipped == 0 : skipped > 50));
   REQUIRE(mesh.position.size() == whole.position.size());
   CHECK(mesh.triangles == whole.triangles);
   for (std::size_t v = 0; v < mesh.position.size(); ++v) CHECK(length(mesh.position[v] - whole.position[v]) == 0);

@@ -57,25 +57,22 @@ inline std::size_t pinched_vertices(const SurfaceMesh& mesh) {
   return pinched;
 }
 
+// The sum over triangles of f(a, b, c), of their corners.
+template <class F>
+double triangle_sum(const SurfaceMesh& mesh, F&& f) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    sum += f(to_double(mesh.position[t[0]]), to_double(mesh.position[t[1]]), to_double(mesh.position[t[2]]));
+  return sum;
+}
+
 // By the divergence theorem, m^3.
 inline double enclosed_volume(const SurfaceMesh& mesh) {
-  double volume = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3d a = to_double(mesh.position[t[0]]), b = to_double(mesh.position[t[1]]),
-                c = to_double(mesh.position[t[2]]);
-    volume += dot(a, cross(b, c)) / 6;
-  }
-  return volume;
+  return triangle_sum(mesh, [](Vec3d a, Vec3d b, Vec3d c) { return dot(a, cross(b, c)) / 6; });
 }
 
 inline double area(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3d a = to_double(mesh.position[t[0]]), b = to_double(mesh.position[t[1]]),
-                c = to_double(mesh.position[t[2]]);
-    sum += 0.5 * length(cross(b - a, c - a));
-  }
-  return sum;
+  return triangle_sum(mesh, [](Vec3d a, Vec3d b, Vec3d c) { return 0.5 * length(cross(b - a, c - a)); });
 }
 
 // The share of triangles' corners whose normal points to the triangle's outer side, of those triangles that have one.
