@@ -34,6 +34,7 @@ std::span<const BenchRow> bench_table() {
        {"CASE", "--cases", "--scenes", "--time", "--out"},
        bench_stability},
       {"surface", "what the mesh of the water's surface costs", {"--share"}, bench_surface},
+      {"render", "what a picture costs in each look, without a window", {"--cases", "--share"}, bench_render},
       {"accuracy",
        "errors against exact answers: gresho_chan, lamb_oseen, taylor_vortex, spinning_drop with every turbulence "
        "method; "

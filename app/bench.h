@@ -26,6 +26,7 @@ int bench_energy(const BenchOptions& options);
 int bench_overhead(const BenchOptions& options);
 int bench_stability(const BenchOptions& options);
 int bench_surface(const BenchOptions& options);
+int bench_render(const BenchOptions& options);
 
 // A bundled scene with --set and about this number of particles.
 Scene bench_scene(const std::string& name, double nu, const std::string& particles, const BenchOptions& options);
