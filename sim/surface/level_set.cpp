@@ -284,11 +284,11 @@ void add_source(const Local& s, f8 (&sum)[LevelSet::side * LevelSet::side]) {
 
 }  // namespace
 
-void LevelSet::find_sources(const Brick& brick, Candidates& near, Grid::Hints& hints,
-                            std::vector<std::uint32_t>& found) const {
+std::span<const std::uint32_t> LevelSet::find_sources(const Brick& brick, Searcher& searcher) const {
+  auto& [near, hints, found] = searcher;
   const Vec3 first = place(brick, 0, 0, 0), last = place(brick, side - 1, side - 1, side - 1);
   near.collect(brick_shape_, grid_, brick.at, position_, hints);
-  found.resize(near.size + 16);
+  if (found.size() < near.size + 16) found.resize(near.size + 16);
   std::size_t number = 0;
   for (std::size_t k = 0; k < near.size; k += 8) {
     const f8 x = load(&near.x[k]), y = load(&near.y[k]), z = load(&near.z[k]);
@@ -297,7 +297,7 @@ void LevelSet::find_sources(const Brick& brick, Candidates& near, Grid::Hints& h
              dz = max(max(first.z - z, z - last.z), f8{}) * (1 / reach_.z);
     number += static_cast<std::size_t>(compress(&near.number[k], dx * dx + dy * dy + dz * dz < 1.0f, &found[number]));
   }
-  found.resize(number);
+  return {found.data(), number};
 }
 
 void LevelSet::sum_sources(const SurfaceSources& sources) {
@@ -329,9 +329,7 @@ void LevelSet::sum_sources(const SurfaceSources& sources) {
   };
 #pragma omp parallel
   {
-    Candidates near;
-    Grid::Hints hints;
-    std::vector<std::uint32_t> found;
+    Searcher searcher;
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t b = 0; b < bricks_.size(); ++b) {
       const Brick& brick = bricks_[b];
@@ -342,10 +340,9 @@ void LevelSet::sum_sources(const SurfaceSources& sources) {
         continue;
       }
       const Vec3 first = place(brick, 0, 0, 0);
-      find_sources(brick, near, hints, found);
       f8 sum[side * side];
       std::fill(std::begin(sum), std::end(sum), splat(-iso_));
-      for (const std::uint32_t j : found) {
+      for (const std::uint32_t j : find_sources(brick, searcher)) {
         if (round)
           add_source<true>(local(j, first), sum);
         else

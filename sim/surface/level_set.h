@@ -76,9 +76,15 @@ class LevelSet {
     return {along(0, x), along(1, y), along(2, z)};
   }
 
-  // The sources that reach a brick, images included, as numbers for position_of and the like. `near` and `hints` are
-  // working memory, one of each a thread.
-  void find_sources(const Brick& brick, Candidates& near, Grid::Hints& hints, std::vector<std::uint32_t>& found) const;
+  // Working memory of a search, one a thread.
+  struct Searcher {
+    Candidates near;
+    Grid::Hints hints;
+    std::vector<std::uint32_t> found;
+  };
+  // The sources that reach a brick, images included, as numbers for position_of and the like; valid until the next
+  // call.
+  std::span<const std::uint32_t> find_sources(const Brick& brick, Searcher& searcher) const;
   Vec3 position_of(std::uint32_t found) const { return position_[found]; }                     // w: the source's w_j
   std::uint32_t number_of(std::uint32_t found) const { return origin_[found] & origin_mask; }  // in the caller's arrays
   // A vector of that source, mirrored as the image is.

@@ -139,7 +139,7 @@ std::uint32_t Polygoniser::vertex(std::size_t brick, int axis, int x, int bit) c
   return m.first_vertex + m.before[a][w] + static_cast<std::uint32_t>(std::popcount(lower));
 }
 
-void Polygoniser::make_vertices(const LevelSet& level_set, std::size_t b, SurfaceMesh& mesh) const {
+void Polygoniser::make_vertices(const LevelSet& level_set, std::size_t b, Normals normals, SurfaceMesh& mesh) const {
   const Marks& m = marks_[b];
   if (m.vertices == 0) return;
   const LevelSet::Brick& brick = level_set.bricks()[b];
@@ -160,12 +160,14 @@ void Polygoniser::make_vertices(const LevelSet& level_set, std::size_t b, Surfac
         Vec3 p{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
         p[axis] += t;
         mesh.position[v] = level_set.place(brick, p.x, p.y, p.z);
+        Vec3 straight;
+        straight[axis] = here > there ? 1.0f : -1.0f;
+        mesh.normal[v] = straight;
+        if (normals == Normals::straight) continue;
         const Vec3 g = (1 - t) * padded.gradient(from) + t * padded.gradient(to);
         const Vec3 n{-g.x * per_cell.x, -g.y * per_cell.y, -g.z * per_cell.z};
         const float l = length(n);
-        Vec3 straight;
-        straight[axis] = here > there ? 1.0f : -1.0f;
-        mesh.normal[v] = l > 0 ? (1 / l) * n : straight;
+        if (l > 0) mesh.normal[v] = (1 / l) * n;
       }
     }
   }
@@ -199,7 +201,7 @@ void Polygoniser::make_triangles(const LevelSet& level_set, std::size_t b, Surfa
   }
 }
 
-void Polygoniser::run(const LevelSet& level_set, SurfaceMesh& mesh) {
+void Polygoniser::run(const LevelSet& level_set, Normals normals, SurfaceMesh& mesh) {
   const std::size_t bricks = level_set.bricks().size();
   marks_.resize(bricks + 1);
 #pragma omp parallel for schedule(dynamic, 8)
@@ -217,7 +219,7 @@ void Polygoniser::run(const LevelSet& level_set, SurfaceMesh& mesh) {
   mesh.triangles.resize(triangles);
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t b = 0; b < bricks; ++b) {
-    make_vertices(level_set, b, mesh);
+    make_vertices(level_set, b, normals, mesh);
     make_triangles(level_set, b, mesh);
   }
 }

@@ -14,8 +14,11 @@ namespace curlew {
 
 class Polygoniser {
  public:
-  // Fills mesh.position, mesh.normal (from the gradient of phi) and mesh.triangles.
-  void run(const LevelSet& level_set, SurfaceMesh& mesh);
+  // From the gradient of phi, or along the grid's edge, where smoothing makes them anew.
+  enum class Normals { gradient, straight };
+
+  // Fills mesh.position, mesh.normal and mesh.triangles.
+  void run(const LevelSet& level_set, Normals normals, SurfaceMesh& mesh);
 
   // Vertices of brick b are first_vertex(b) to first_vertex(b + 1).
   std::uint32_t first_vertex(std::size_t brick) const { return marks_[brick].first_vertex; }
@@ -34,7 +37,7 @@ class Polygoniser {
   };
 
   void mark(const LevelSet& level_set, std::size_t b);
-  void make_vertices(const LevelSet& level_set, std::size_t b, SurfaceMesh& mesh) const;
+  void make_vertices(const LevelSet& level_set, std::size_t b, Normals normals, SurfaceMesh& mesh) const;
   void make_triangles(const LevelSet& level_set, std::size_t b, SurfaceMesh& mesh) const;
   std::uint32_t vertex(std::size_t brick, int axis, int x, int bit) const;
 

@@ -17,6 +17,11 @@ constexpr float inwards = 0.9f, outwards = -0.93f;
 // tip of a small drop and stays.
 constexpr float sharpest = 4;
 
+const f4& vector_at(const std::vector<Vec3>& vectors, std::size_t v) {
+  return *reinterpret_cast<const f4*>(&vectors[v]);
+}
+f4& vector_at(std::vector<Vec3>& vectors, std::size_t v) { return *reinterpret_cast<f4*>(&vectors[v]); }
+
 }  // namespace
 
 // In a closed mesh the corners that follow a vertex in its triangles are its neighbours, each once.
@@ -49,38 +54,51 @@ void Smoother::find_rings(const SurfaceMesh& mesh) {
   }
 }
 
-// How much each vertex may move.
-void Smoother::find_freedom(const std::vector<Vec3>& position) {
-  freedom_.resize(position.size());
-  parallel_for(position.size(), [&](std::size_t v) {
-    Vec3 sum;
-    float length2 = 0;
+// A vertex on its way towards the mean of its neighbours, or away; all four numbers of a vector at once, the fourth is
+// not used.
+inline f4 Smoother::moved(std::size_t v, f4 here, f4 to_mean, float share) const {
+  f4 there = here + share * freedom_[v] * to_mean;
+  const f4 low{low_.x, low_.y, low_.z, -INFINITY}, high{high_.x, high_.y, high_.z, INFINITY};
+  there = there < low ? low : there > high ? high : there;
+  for (int axis = 0; held_[v] != 0 && axis < 3; ++axis) {
+    if ((held_[v] >> axis & 1) != 0) there[axis] = here[axis];
+  }
+  return there;
+}
+
+// The first step also finds how much each vertex may move, and in which faces it is held.
+void Smoother::first_step(const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+  freedom_.resize(from.size());
+  held_.resize(from.size());
+  parallel_for(from.size(), [&](std::size_t v) {
+    const f4 here = vector_at(from, v);
+    f4 sum{}, length2{};
     for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k) {
-      const Vec3 side = position[next_[k]] - position[v];
-      sum += side;
-      length2 += dot(side, side);
+      const f4 way = vector_at(from, next_[k]) - here;
+      sum += way;
+      length2 += way * way;
     }
     const float number = static_cast<float>(first_[v + 1] - first_[v]);
-    const float bend = dot(sum, sum) / (number * std::max(length2, 1e-30f));
+    const f4 sum2 = sum * sum;
+    const float bend =
+        (sum2[0] + sum2[1] + sum2[2]) / (number * std::max(length2[0] + length2[1] + length2[2], 1e-30f));
     freedom_[v] = std::max(0.0f, 1 - sharpest * bend);
+    unsigned held = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (here[axis] - low_[axis] < near_[axis] || high_[axis] - here[axis] < near_[axis]) held |= 1u << axis;
+    }
+    held_[v] = static_cast<std::uint8_t>(held);
+    vector_at(to, v) = moved(v, here, (1 / number) * sum, inwards);
   });
 }
 
-// All four numbers of a vector at once; the fourth is not used.
 void Smoother::step(const std::vector<Vec3>& from, std::vector<Vec3>& to, float share) const {
-  const auto at = [&](std::size_t v) { return *reinterpret_cast<const f4*>(&from[v]); };
-  const f4 low{low_.x, low_.y, low_.z, -INFINITY}, high{high_.x, high_.y, high_.z, INFINITY};
   parallel_for(from.size(), [&](std::size_t v) {
     f4 sum{};
     const std::uint32_t begin = first_[v], end = first_[v + 1];
-    for (std::uint32_t k = begin; k < end; ++k) sum += at(next_[k]);
-    const f4 here = at(v);
-    f4 moved = here + share * freedom_[v] * ((1 / static_cast<float>(end - begin)) * sum - here);
-    moved = moved < low ? low : moved > high ? high : moved;
-    for (int axis = 0; held_[v] != 0 && axis < 3; ++axis) {
-      if ((held_[v] >> axis & 1) != 0) moved[axis] = here[axis];
-    }
-    *reinterpret_cast<f4*>(&to[v]) = moved;
+    for (std::uint32_t k = begin; k < end; ++k) sum += vector_at(from, next_[k]);
+    const f4 here = vector_at(from, v);
+    vector_at(to, v) = moved(v, here, (1 / static_cast<float>(end - begin)) * sum - here, share);
   });
 }
 
@@ -97,23 +115,20 @@ void Smoother::find_normals(SurfaceMesh& mesh) const {
 void Smoother::run(SurfaceMesh& mesh, int passes, const Domain& domain) {
   if (passes == 0 || mesh.empty()) return;
   find_rings(mesh);
-  held_.assign(mesh.position.size(), 0);
   for (int axis = 0; axis < 3; ++axis) {
     const auto face = [&](int side, double open, double closed) {
       return static_cast<float>(is_cut_off(domain, axis, side) ? closed : open);
     };
     low_[axis] = face(0, -INFINITY, domain.min[axis]);
     high_[axis] = face(1, INFINITY, domain.max[axis]);
-    const auto near = static_cast<float>(1e-5 * (domain.max[axis] - domain.min[axis]));
-    parallel_for(mesh.position.size(), [&](std::size_t v) {
-      const float x = mesh.position[v][axis];
-      if (x - low_[axis] < near || high_[axis] - x < near) held_[v] = static_cast<std::uint8_t>(held_[v] | 1u << axis);
-    });
+    near_[axis] = static_cast<float>(1e-5 * (domain.max[axis] - domain.min[axis]));
   }
   other_.resize(mesh.position.size());
-  find_freedom(mesh.position);
   for (int pass = 0; pass < passes; ++pass) {
-    step(mesh.position, other_, inwards);
+    if (pass == 0)
+      first_step(mesh.position, other_);
+    else
+      step(mesh.position, other_, inwards);
     step(other_, mesh.position, outwards);
   }
   find_normals(mesh);

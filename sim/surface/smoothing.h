@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/core/simd.h"
 #include "sim/scene/scene.h"
 #include "sim/surface/polygonise.h"
 
@@ -21,7 +22,8 @@ class Smoother {
 
  private:
   void find_rings(const SurfaceMesh& mesh);
-  void find_freedom(const std::vector<Vec3>& position);
+  f4 moved(std::size_t v, f4 here, f4 to_mean, float share) const;
+  void first_step(const std::vector<Vec3>& from, std::vector<Vec3>& to);
   void step(const std::vector<Vec3>& from, std::vector<Vec3>& to, float share) const;
   void find_normals(SurfaceMesh& mesh) const;
 
@@ -29,7 +31,8 @@ class Smoother {
   std::vector<std::uint32_t> next_, previous_;  // their other corners
   std::vector<float> freedom_;
   std::vector<Vec3> other_;
-  Vec3 low_, high_;                 // where the water must end
+  Vec3 low_, high_;                 // where the water must end, m
+  Vec3 near_;                       // m: a vertex as near as this lies in such a face
   std::vector<std::uint8_t> held_;  // bit an axis along which the vertex must not move
 };
 

@@ -58,7 +58,8 @@ const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const S
   });
   const SourceShape shape = round_shape(radius);
   times_.level_set = milliseconds([&] { level_set_.build({sources_, {&shape, 1}, d}, scene.domain, cell, p.iso); });
-  times_.polygonise = milliseconds([&] { polygoniser_.run(level_set_, mesh_); });
+  const auto normals = p.smoothing > 0 ? Polygoniser::Normals::straight : Polygoniser::Normals::gradient;
+  times_.polygonise = milliseconds([&] { polygoniser_.run(level_set_, normals, mesh_); });
   times_.smooth = milliseconds([&] { smoother_.run(mesh_, p.smoothing, scene.domain); });
   mesh_.velocity.clear();
   if (!particles.velocity.empty()) find_vertex_velocities(level_set_, polygoniser_, particles.velocity, mesh_);

@@ -9,15 +9,13 @@ void find_vertex_velocities(const LevelSet& level_set, const Polygoniser& polygo
   const std::size_t bricks = level_set.bricks().size();
 #pragma omp parallel
   {
-    Candidates near;
-    Grid::Hints hints;
-    std::vector<std::uint32_t> found;
+    LevelSet::Searcher searcher;
     std::vector<Vec3> moving;
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t b = 0; b < bricks; ++b) {
       const std::uint32_t begin = polygoniser.first_vertex(b), end = polygoniser.first_vertex(b + 1);
       if (begin == end) continue;
-      level_set.find_sources(level_set.bricks()[b], near, hints, found);
+      const auto found = level_set.find_sources(level_set.bricks()[b], searcher);
       moving.clear();
       for (const std::uint32_t j : found) moving.push_back(level_set.mirrored(velocity[level_set.number_of(j)], j));
       for (std::uint32_t v = begin; v < end; ++v) {

@@ -252,7 +252,7 @@ TEST_CASE("a source with a matrix of its own is an ellipsoid, turned as the matr
     LevelSet level_set;
     level_set.build({places, {shapes.data(), places.size()}, 0.04}, scene.domain, 0.05, 0.5);
     SurfaceMesh mesh;
-    Polygoniser().run(level_set, mesh);
+    Polygoniser().run(level_set, Polygoniser::Normals::gradient, mesh);
     return mesh;
   };
   Vec3 one{0.1f, -0.2f, 0.3f}, other{-0.5f, 0.5f, -0.4f};
@@ -290,7 +290,7 @@ TEST_CASE("what is deep in the water is not summed, and the surface is the same"
     full = 0;
     for (const LevelSet::Brick& brick : level_set.bricks()) full += brick.full ? 1 : 0;
     SurfaceMesh mesh;
-    Polygoniser().run(level_set, mesh);
+    Polygoniser().run(level_set, Polygoniser::Normals::gradient, mesh);
     return mesh;
   };
   std::size_t skipped = 0, none = 0;
