@@ -136,15 +136,18 @@
        "Water with more than this many times the mechanical energy of the start has diverged: the run stops. Not "    \
        "where walls move, a torque acts, or turbulence models run without energy.guard.")
 
-#define CURLEW_SURFACE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \
-  REAL(cell, 1.0, 0.5, 2.0, 0.5, 2.0, "r", "", live,                                                             \
-       "Width of the marching-cubes cells of the water's surface, in particle radii.")                           \
-  REAL(kernel_radius, 2.0, 1.2, 2.0, 1.0, 4.0, "d", "R", live,                                                   \
-       "Reach of a particle in the surface's level set, in spacings: larger is smoother and loses thin sheets.") \
-  REAL(iso, 0.5, 0.3, 0.7, 0.05, 0.95, "1", "", live,                                                            \
-       "Level of the surface, as a share of full water: half keeps the volume.")                                 \
-  COUNT(smoothing, 2, 0, 20, 0, 1000, "1", "", live,                                                             \
-        "Smoothing passes over the surface's mesh, which keep its volume (Taubin 1995).")
+#define CURLEW_SURFACE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                      \
+  REAL(cell, 1.0, 0.5, 2.0, 0.5, 2.0, "r", "", live,                                                              \
+       "Width of the marching-cubes cells of the water's surface, in particle radii.")                            \
+  REAL(kernel_radius, 2.0, 1.2, 2.0, 1.0, 4.0, "d", "R", live,                                                    \
+       "Reach of a particle in the surface's level set, in spacings: larger is smoother and loses thin sheets.")  \
+  REAL(iso, 0.5, 0.3, 0.7, 0.05, 0.95, "1", "", live,                                                             \
+       "Level of the surface, as a share of full water: half keeps the volume.")                                  \
+  COUNT(smoothing, 2, 0, 20, 0, 1000, "1", "", live,                                                              \
+        "Smoothing passes over the surface's mesh, which keep its volume (Taubin 1995).")                         \
+  FLAG(anisotropic, false, "", live,                                                                              \
+       "Particles flattened into the shape of their surroundings (Yu & Turk 2013): smoother surfaces and sheets " \
+       "without holes, for stills, at several times the cost.")
 
 // group name, struct, table, heading
 #define CURLEW_PARAMETER_GROUPS(GROUP)                                                                  \

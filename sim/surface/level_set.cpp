@@ -45,11 +45,6 @@ void for_places_around(F&& f) {
 
 }  // namespace
 
-bool is_cut_off(const Domain& domain, int axis, int side) {
-  return domain.periodic[static_cast<std::size_t>(axis)] ||
-         domain.walls[static_cast<std::size_t>(2 * axis + side)].kind != WallKind::open;
-}
-
 SourceShape round_shape(double radius) {
   const auto r = static_cast<float>(radius);
   const float m = 1 / (r * r);
@@ -85,33 +80,11 @@ void LevelSet::lay_out(const Domain& domain, double cell) {
 
 // The sources, and beside them their images behind walls and periodic faces as far as they reach; sorted by brick.
 void LevelSet::collect_sources(const SurfaceSources& sources, const Domain& domain) {
-  const std::size_t n = sources.position.size();
   reach_ = {};
   for (const SourceShape& shape : sources.shape) {
     for (int axis = 0; axis < 3; ++axis) reach_[axis] = std::max(reach_[axis], shape.reach[axis]);
   }
-  unsorted_.assign(sources.position.begin(), sources.position.end());
-  unsorted_origin_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) unsorted_origin_[i] = static_cast<std::uint32_t>(i);
-  // Axis by axis, so that images get images of their own at edges and corners.
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const auto low = static_cast<float>(domain.min[axis]), high = static_cast<float>(domain.max[axis]);
-    const std::size_t so_far = unsorted_.size();
-    for (std::size_t i = 0; i < so_far; ++i) {
-      const float x = unsorted_[i][axis];
-      const auto add = [&](float image, bool mirrored) {
-        Vec3 p = unsorted_[i];
-        p[axis] = image;
-        unsorted_.push_back(p);
-        unsorted_origin_.push_back(unsorted_origin_[i] ^ (mirrored ? 1u << (mirror_shift + axis) : 0u));
-      };
-      if (cut_low_[a] && x - low < reach_[axis] && x >= low)
-        add(domain.periodic[a] ? x + (high - low) : low - (x - low), !domain.periodic[a]);
-      if (cut_high_[a] && high - x < reach_[axis] && x <= high)
-        add(domain.periodic[a] ? x - (high - low) : high + (high - x), !domain.periodic[a]);
-    }
-  }
+  collect_images(sources.position, domain, reach_, unsorted_, unsorted_origin_);
   grid_.build(brick_shape_, unsorted_, order_);
   position_.resize(order_.size());
   origin_.resize(order_.size());
@@ -307,12 +280,12 @@ void LevelSet::sum_sources(const SurfaceSources& sources) {
   const std::array<float, 3> per_cell{static_cast<float>(1 / cell_.x), static_cast<float>(1 / cell_.y),
                                       static_cast<float>(1 / cell_.z)};
   const auto local = [&](std::uint32_t j, Vec3 first) {
-    const std::uint32_t origin = origin_[j];
-    const SourceShape& shape = sources.shape[round ? 0 : origin & origin_mask];
+    const ImageOrigin origin = origin_[j];
+    const SourceShape& shape = sources.shape[round ? 0 : origin.number()];
     const Vec3 p = position_[j] - first;
     const auto cx = 1 / per_cell[0], cy = 1 / per_cell[1], cz = 1 / per_cell[2];
     const auto sign = [&](int a, int b) {  // of a mixed term, under reflection
-      return ((origin >> (mirror_shift + a) ^ origin >> (mirror_shift + b)) & 1u) != 0 ? -1.0f : 1.0f;
+      return origin.is_mirrored(a) != origin.is_mirrored(b) ? -1.0f : 1.0f;
     };
     return Local{p.x * per_cell[0],
                  p.y * per_cell[1],
@@ -392,8 +365,9 @@ void LevelSet::build(const SurfaceSources& sources, const Domain& domain, double
 }
 
 std::size_t LevelSet::bytes() const {
-  return unsorted_.capacity() * 2 * sizeof(Vec3) + unsorted_origin_.capacity() * 3 * sizeof(std::uint32_t) +
-         grid_.bytes() + bricks_.capacity() * (sizeof(Brick) + sizeof(Bits) + sizeof(std::uint64_t)) +
+  return unsorted_.capacity() * 2 * sizeof(Vec3) + unsorted_origin_.capacity() * 2 * sizeof(ImageOrigin) +
+         order_.capacity() * sizeof(std::uint32_t) + grid_.bytes() +
+         bricks_.capacity() * (sizeof(Brick) + sizeof(Bits) + sizeof(std::uint64_t)) +
          values_.capacity() * sizeof(float);
 }
 

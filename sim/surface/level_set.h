@@ -17,6 +17,7 @@
 #include "sim/scene/scene.h"
 #include "sim/sph/candidates.h"
 #include "sim/sph/grid.h"
+#include "sim/surface/images.h"
 
 namespace curlew {
 
@@ -27,9 +28,6 @@ struct SourceShape {
 };
 
 SourceShape round_shape(double radius);
-
-// Whether water ends at a face of the domain: side 0 is the low one.
-bool is_cut_off(const Domain& domain, int axis, int side);
 
 // What the level set is made from. The arrays stay the caller's.
 struct SurfaceSources {
@@ -85,12 +83,12 @@ class LevelSet {
   // The sources that reach a brick, images included, as numbers for position_of and the like; valid until the next
   // call.
   std::span<const std::uint32_t> find_sources(const Brick& brick, Searcher& searcher) const;
-  Vec3 position_of(std::uint32_t found) const { return position_[found]; }                     // w: the source's w_j
-  std::uint32_t number_of(std::uint32_t found) const { return origin_[found] & origin_mask; }  // in the caller's arrays
+  Vec3 position_of(std::uint32_t found) const { return position_[found]; }                // w: the source's w_j
+  std::uint32_t number_of(std::uint32_t found) const { return origin_[found].number(); }  // in the caller's arrays
   // A vector of that source, mirrored as the image is.
   Vec3 mirrored(Vec3 vector, std::uint32_t found) const {
     for (int axis = 0; axis < 3; ++axis) {
-      if ((origin_[found] >> (mirror_shift + axis) & 1u) != 0) vector[axis] = -vector[axis];
+      if (origin_[found].is_mirrored(axis)) vector[axis] = -vector[axis];
     }
     return vector;
   }
@@ -99,9 +97,6 @@ class LevelSet {
   std::size_t bytes() const;
 
  private:
-  static constexpr int mirror_shift = 29;
-  static constexpr std::uint32_t origin_mask = (1u << mirror_shift) - 1;
-
   struct Occupied;  // what is known of a brick that holds sources
   struct Local;     // a source as its brick sees it
 
@@ -118,8 +113,8 @@ class LevelSet {
   float iso_ = 0.5f;
   Vec3 reach_;  // of the widest source, m
 
-  std::vector<Vec3> unsorted_, position_;                // sources and their images
-  std::vector<std::uint32_t> unsorted_origin_, origin_;  // number of the source, and which axes it is mirrored along
+  std::vector<Vec3> unsorted_, position_;  // sources and their images
+  std::vector<ImageOrigin> unsorted_origin_, origin_;
   std::vector<std::uint32_t> order_;
   CellShape brick_shape_;
   Grid grid_;  // of the sources, one cell a brick

@@ -56,8 +56,11 @@ const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const S
     }
     sources_[i].w = static_cast<float>(factor * weight);
   });
-  const SourceShape shape = round_shape(radius);
-  times_.level_set = milliseconds([&] { level_set_.build({sources_, {&shape, 1}, d}, scene.domain, cell, p.iso); });
+  times_.level_set = milliseconds([&] {
+    shapes_.assign(1, round_shape(radius));
+    if (p.anisotropic) shape_finder_.run(sources_, scene.domain, d, radius, shapes_);
+    level_set_.build({sources_, shapes_, d}, scene.domain, cell, p.iso);
+  });
   const auto normals = p.smoothing > 0 ? Polygoniser::Normals::straight : Polygoniser::Normals::gradient;
   times_.polygonise = milliseconds([&] { polygoniser_.run(level_set_, normals, mesh_); });
   times_.smooth = milliseconds([&] { smoother_.run(mesh_, p.smoothing, scene.domain); });
@@ -67,8 +70,9 @@ const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const S
 }
 
 std::size_t SurfaceMaker::bytes() const {
-  return sources_.capacity() * sizeof(Vec3) + level_set_.bytes() + polygoniser_.bytes() + smoother_.bytes() +
-         mesh_.position.capacity() * 2 * sizeof(Vec3) + mesh_.triangles.capacity() * 12;
+  return sources_.capacity() * sizeof(Vec3) + shapes_.capacity() * sizeof(SourceShape) + shape_finder_.bytes() +
+         level_set_.bytes() + polygoniser_.bytes() + smoother_.bytes() + mesh_.position.capacity() * 2 * sizeof(Vec3) +
+         mesh_.triangles.capacity() * 12;
 }
 
 }  // namespace curlew

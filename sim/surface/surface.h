@@ -9,6 +9,7 @@
 #include "sim/core/vec.h"
 #include "sim/scene/scene.h"
 #include "sim/sph/kernel.h"
+#include "sim/surface/anisotropy.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/polygonise.h"
 #include "sim/surface/smoothing.h"
@@ -39,6 +40,8 @@ class SurfaceMaker {
 
  private:
   std::vector<Vec3> sources_;
+  std::vector<SourceShape> shapes_;
+  ShapeFinder shape_finder_;  // empty unless surface.anisotropic
   LevelSet level_set_;
   Polygoniser polygoniser_;
   Smoother smoother_;
