@@ -67,6 +67,7 @@ Start resume(const RunOptions& options) {
   check_same(options, checkpoint);
   Scene scene = parse_scene(checkpoint.scene_json, checkpoint.scene_file);
   apply_settings(scene.parameters, options.settings);
+  if (options.look) scene.look.style = *options.look;  // pictures only
   check_resolution(scene);
   Start start{make_empty_world(scene, checkpoint.seed), checkpoint.step, {}};
   World& w = start.world;

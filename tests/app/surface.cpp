@@ -82,6 +82,17 @@ TEST_CASE("`render` draws the frames of a run again, as it did or in another loo
   }
 }
 
+TEST_CASE("a run that goes on heeds --look, and its state does not") {
+  const TemporaryFolder folder;
+  run_in(folder.path(), "run dam_break --particles 3k --time 0.02 --checkpoint-every 0.02", "first");
+  const std::string on =
+      "run --resume " + last_checkpoint(folder / "first") + " --time 0.05 --fps 40 --frames --size 160x90 --look ";
+  const Table water = run_in(folder.path(), on + "water", "water"),
+              particles = run_in(folder.path(), on + "particles", "particles");
+  CHECK(water.last_hash() == particles.last_hash());
+  CHECK(file_text(folder / "water/frames/000002.png") != file_text(folder / "particles/frames/000002.png"));
+}
+
 TEST_CASE("a scene whose body is a mesh is drawn again from anywhere") {
   const TemporaryFolder folder;
   run_in(folder.path(), "run rock --particles 3k --steps 2 --particles-out vtk --frames --size 160x90", "rock");
