@@ -79,8 +79,8 @@ bool Interface::draw_colour_choice() {
 bool Interface::draw_style_choice() {
   static constexpr const char* docs[] = {
       "The particles as spheres, coloured by a field.",
-      "Clear water by the mesh of its surface, which takes the solver's time for each picture: best with a graphics "
-      "card.",
+      ("Clear water by the mesh of its surface, which takes the solver's time for each picture: best with a graphics "
+       "card."),
       "Clear water straight from the particles: no mesh, less exact."};
   const auto names = look_style_names();
   const auto chosen = static_cast<std::size_t>(view_.look.style);
