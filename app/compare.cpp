@@ -206,27 +206,81 @@ CompareTolerances read_tolerances(const fs::path& file) {
   return t;
 }
 
+namespace {
+
+std::vector<std::string> changes_of_scene(const RunRecord& golden, const RunRecord& now) {
+  std::vector<std::string> changed;
+  list_changes(*golden.found({"scene"}), *now.found({"scene"}), "", changed);
+  const JsonNode *seed = golden.found({"seed"}), *new_seed = now.found({"seed"});
+  if (seed != nullptr && new_seed != nullptr && !same_node(*seed, *new_seed))
+    changed.push_back("the seed is " + short_text(*seed) + " in GOLDEN and " + short_text(*new_seed) + " in NEW");
+  return changed;
+}
+
+bool all_allowed(const auto& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.allowed; });
+}
+
+// The verdict on NEW's state and pictures.
+void judge(Comparison& c, const RunRecord& golden, const RunRecord& now, bool same_bits_expected) {
+  const bool same_state = golden.state_hash() == now.state_hash();
+  const bool same_pictures = std::all_of(c.pictures.begin(), c.pictures.end(),
+                                         [](const PictureRow& r) { return r.allowed && r.difference.largest == 0; });
+  const bool drawn_as_before = !c.redrawn.rows.empty() && all_allowed(c.redrawn.rows);
+  const bool simulation_changed =
+      std::any_of(c.changed.begin(), c.changed.end(), [](const std::string& s) { return !is_of_picture(s); });
+  if (!c.changed.empty() && (simulation_changed || !same_pictures)) {
+    c.kind = Kind::parameter;
+    c.verdict = (c.changed.front().starts_with("parameters.") ? "a parameter differs: " : "the scene differs: ") +
+                c.changed.front();
+    if (c.changed.size() > 1) c.verdict += ", and " + std::to_string(c.changed.size() - 1) + " more";
+  } else if (!same_state && (same_bits_expected || !all_allowed(c.state))) {
+    c.kind = Kind::simulation;
+    c.verdict = "the simulation first differed at " + first_difference(golden, now);
+  } else if (!same_state && !all_allowed(c.pictures) && drawn_as_before) {
+    c.kind = Kind::simulation;
+    c.verdict = "the simulation changed, within the tolerances of its state but not of its pictures: " +
+                worst_picture(c.pictures) + ", and the golden's stored state is drawn as before";
+  } else if (!all_allowed(c.pictures)) {
+    c.kind = Kind::rendering;
+    c.verdict = "the rendering changed: " + worst_picture(c.pictures);
+    if (same_state) c.verdict += ", of the same state";
+  } else if (same_state && same_pictures) {
+    c.verdict = golden.frames.empty() ? "identical: the same state" : "identical: the same state and the same pictures";
+  } else {
+    c.kind = Kind::within_tolerance;
+    c.verdict = same_state ? "the same state, and pictures within the tolerance" : "the same within the tolerances";
+  }
+}
+
+// GOLDEN's state drawn otherwise than then is the rendering's doing, whatever else differs.
+void judge_redrawn(Comparison& c) {
+  if (all_allowed(c.redrawn.rows)) return;
+  const bool more = c.kind == Kind::parameter || c.kind == Kind::simulation;
+  c.verdict = "the rendering changed: " + worst_picture(c.redrawn.rows) + ", of the golden's stored state" +
+              (more ? "; and " + c.verdict : "");
+  c.kind = Kind::rendering;
+}
+
+}  // namespace
+
 Comparison compare_runs(const RunRecord& golden, const RunRecord& now) {
   Comparison c;
   std::error_code ignored;
   const fs::path own = golden.folder / "compare.json";
   c.tolerances = fs::exists(own, ignored) ? read_tolerances(own) : default_tolerances();
-
-  list_changes(*golden.found({"scene"}), *now.found({"scene"}), "", c.changed);
-  const JsonNode *seed = golden.found({"seed"}), *new_seed = now.found({"seed"});
-  if (seed != nullptr && new_seed != nullptr && !same_node(*seed, *new_seed))
-    c.changed.push_back("the seed is " + short_text(*seed) + " in GOLDEN and " + short_text(*new_seed) + " in NEW");
+  c.changed = changes_of_scene(golden, now);
 
   const bool same_bits_expected =
       same_item(golden, now, {"program", "compiler"}) && same_item(golden, now, {"program", "instruction_set"});
-  const bool drawn = !golden.frames.empty();
   const bool same_renderer =
       same_item(golden, now, {"program", "renderer"}) && same_item(golden, now, {"program", "opengl"});
   const bool same_state = golden.state_hash() == now.state_hash();
   c.picture_tolerance = same_state && same_renderer ? c.tolerances.tight : c.tolerances.loose;
   c.state = compare_state(golden, now, c.tolerances);
   c.pictures = compare_pictures(golden, now, c.picture_tolerance);
-  if (drawn && !same_renderer) {
+  c.redrawn = redraw_stored_states(golden, c.tolerances.tight);
+  if (!golden.frames.empty() && !same_renderer) {
     c.warnings.push_back("GOLDEN was drawn by " + golden.text({"program", "renderer"}) + ", NEW by " +
                          now.text({"program", "renderer"}) + ": only the loose tolerance counts for pictures");
   }
@@ -235,33 +289,9 @@ Comparison compare_runs(const RunRecord& golden, const RunRecord& now) {
         "the runs come from different compilers or instruction sets: their states need not have the same bits, and the "
         "tolerances count");
   }
-
-  const bool state_allowed = std::all_of(c.state.begin(), c.state.end(), [](const StateRow& r) { return r.allowed; });
-  const bool pictures_allowed =
-      std::all_of(c.pictures.begin(), c.pictures.end(), [](const PictureRow& r) { return r.allowed; });
-  const bool same_pictures = std::all_of(c.pictures.begin(), c.pictures.end(),
-                                         [](const PictureRow& r) { return r.allowed && r.difference.largest == 0; });
-  const bool simulation_changed =
-      std::any_of(c.changed.begin(), c.changed.end(), [](const std::string& s) { return !is_of_picture(s); });
-
-  if (!c.changed.empty() && (simulation_changed || !same_pictures)) {
-    c.kind = Kind::parameter;
-    c.verdict = (c.changed.front().starts_with("parameters.") ? "a parameter differs: " : "the scene differs: ") +
-                c.changed.front();
-    if (c.changed.size() > 1) c.verdict += ", and " + std::to_string(c.changed.size() - 1) + " more";
-  } else if (!same_state && (same_bits_expected || !state_allowed)) {
-    c.kind = Kind::simulation;
-    c.verdict = "the simulation first differed at " + first_difference(golden, now);
-  } else if (!pictures_allowed) {
-    c.kind = Kind::rendering;
-    c.verdict = "the rendering changed: " + worst_picture(c.pictures);
-    if (same_state) c.verdict += ", of the same state";
-  } else if (same_state && same_pictures) {
-    c.verdict = drawn ? "identical: the same state and the same pictures" : "identical: the same state";
-  } else {
-    c.kind = Kind::within_tolerance;
-    c.verdict = same_state ? "the same state, and pictures within the tolerance" : "the same within the tolerances";
-  }
+  if (!c.redrawn.warning.empty()) c.warnings.push_back(c.redrawn.warning);
+  judge(c, golden, now, same_bits_expected);
+  judge_redrawn(c);
   return c;
 }
 
@@ -278,15 +308,18 @@ void accept_run(const RunRecord& golden, const RunRecord& now) {
     if (error) throw InputError("cannot write " + (golden.folder / name).string() + ": " + error.message());
   };
   for (const std::string& frame : now.frames) copy(fs::path("frames") / frame);
+  for (const std::string& checkpoint : now.checkpoints) copy(fs::path("checkpoints") / checkpoint);
   for (const char* name : {"stats.csv", "passes.csv", "probes.csv", "run.json"}) copy(name);  // run.json makes it whole
 }
+
+void warn(const std::string& sentence) { std::fprintf(stderr, "curlew: warning: %s\n", sentence.c_str()); }
 
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
   const RunRecord golden = read_run(options.golden), now = read_run(options.now);
   const Comparison c = compare_runs(golden, now);
-  for (const std::string& warning : c.warnings) std::fprintf(stderr, "curlew: warning: %s\n", warning.c_str());
+  for (const std::string& warning : c.warnings) warn(warning);
   std::printf("%s\n", c.verdict.c_str());
   const std::string page = options.report.empty() ? options.now + "/compare.html" : options.report;
   AtomicFile file(page);
@@ -295,6 +328,8 @@ int compare_command(const CompareOptions& options) {
   if (!options.quiet) std::printf("report: %s\n", page.c_str());
   if (options.accept) {
     accept_run(golden, now);
+    if (now.checkpoints.empty() && !golden.checkpoints.empty())
+      warn("GOLDEN's checkpoints are gone, for NEW has none; run it with --checkpoint-every to store states again");
     if (!options.quiet)
       std::printf("accepted: %s now holds what %s does\n", options.golden.c_str(), options.now.c_str());
     return 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/run_record.h"
+#include "render/image.h"
 #include "render/picture_difference.h"
 
 namespace curlew {
@@ -34,11 +35,24 @@ struct StateRow {
   bool allowed = true;
 };
 
+// A picture of GOLDEN and what stands against it: the frame of that name in NEW, or one that was drawn here.
 struct PictureRow {
   std::string name;
   PictureDifference difference;
   bool allowed = true;
+  std::string checkpoint = {};  // GOLDEN's, of which it was drawn here
+  Image drawn = {};             // in that case
 };
+
+// GOLDEN's stored states, drawn again by this program and compared with the pictures that GOLDEN has of them. That
+// needs no state of NEW, so it tells a change of the rendering from one of the simulation where both changed.
+struct Redrawn {
+  std::vector<PictureRow> rows;
+  std::string warning;  // why states that GOLDEN has were not drawn: a sentence
+  std::string hint;     // what GOLDEN lacks, for the page
+};
+// Throws InputError, naming the file, where a checkpoint or a picture cannot be read.
+Redrawn redraw_stored_states(const RunRecord& golden, const PictureTolerance& tight);
 
 struct Comparison {
   enum class Kind { identical, within_tolerance, parameter, rendering, simulation };
@@ -48,8 +62,9 @@ struct Comparison {
   std::vector<std::string> changed;   // "parameters.viscosity.nu is 0 in GOLDEN and 0.01 in NEW"
   std::vector<StateRow> state;        // of the last rows
   std::vector<PictureRow> pictures;
+  Redrawn redrawn;
   CompareTolerances tolerances;
-  PictureTolerance picture_tolerance;  // the one that was applied
+  PictureTolerance picture_tolerance;  // the one that was applied to `pictures`
 
   bool passed() const { return kind == Kind::identical || kind == Kind::within_tolerance; }
 };

@@ -24,7 +24,6 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
     : folder_(folder),
       format_(options.particles_out),
       mesh_format_(options.mesh_out),
-      colour_(scene.look.style == LookStyle::particles || scene.dimension == 2 ? scene.look.colour_by : "none"),
       png_(options.frames),
       range_(range) {
   if (!mesh_format_.empty() && scene.dimension != 3) {
@@ -35,7 +34,8 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   view_.look = scene.look;
   if (scene.look.range) range_ = scene.look.range;
   if (!options.frames && options.video.empty()) return;
-  if (const std::string warning = colour_ == "none" ? "" : colour_warning(scene); !warning.empty() && !options.quiet) {
+  const bool coloured = shown_colour(scene.look, scene.dimension) != "none";
+  if (const std::string warning = coloured ? colour_warning(scene) : ""; !warning.empty() && !options.quiet) {
     std::fprintf(stderr, "curlew: warning: %s\n", warning.c_str());
   }
   geometry_ = make_geometry(scene);
@@ -53,14 +53,10 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
   frames_ = std::make_unique<FrameWriter>();
 }
 
-bool FrameOutput::shows_surface() const {
-  return renderer_ && view_.look.style == LookStyle::water && geometry_->dimension == 3;
-}
-
 FieldSet FrameOutput::demand() const {
   FieldSet fields;
-  if (shows_surface() || !mesh_format_.empty()) fields = fields | surface_demand();
-  if (renderer_) fields = fields | colour_demand(colour_);
+  if (!mesh_format_.empty()) fields = fields | surface_demand();
+  if (renderer_) fields = fields | shown_demand(view_.look, geometry_->dimension);
   return fields;
 }
 
@@ -68,9 +64,7 @@ void FrameOutput::write(const World& world, std::int64_t frame) {
   if (!format_.empty()) write_particles(world, frame);
   if (!mesh_format_.empty()) write_mesh(world, frame);
   if (!renderer_) return;
-  Frame picture = make_frame(world, colour_, geometry_);
-  if (shows_surface()) picture.surface = make_surface(world, surface_, view_.look.cut);
-  if (view_.look.cut) picture = cut_open(picture, *view_.look.cut);
+  const Frame picture = make_shown_frame(world, view_.look, geometry_, surface_);
   if (!view_.look.range && !picture.value.empty()) {
     const auto own = curlew::colour_range(picture);
     range_ = range_ ? united(*range_, own) : own;

@@ -37,11 +37,10 @@ class FrameOutput {
   void finish();
 
  private:
-  bool shows_surface() const;
   void write_particles(const World& world, std::int64_t frame) const;
   void write_mesh(const World& world, std::int64_t frame);
 
-  std::string folder_, format_, mesh_format_, colour_;
+  std::string folder_, format_, mesh_format_;
   bool png_ = false;
   ViewSettings view_;
   std::optional<std::array<double, 2>> range_;

@@ -106,9 +106,7 @@ class Run {
     summary_.resumed_from = options.resume;
     summary_.changed_on_resume = resumed_ && !options.settings.empty();
     next_frame_ = resumed_ ? frame_of(world_.time) + 1 : 0;
-    next_checkpoint_ = options.checkpoint_every > 0
-                           ? options.checkpoint_every * (std::floor(world_.time / options.checkpoint_every) + 1)
-                           : INFINITY;
+    next_checkpoint_ = checkpoint_of(world_.time) + 1;
     write_json();
   }
 
@@ -161,6 +159,11 @@ class Run {
   }
 
   // The frame whose time is the last at or before `time`.
+  // Counted alike, so that a checkpoint and a frame of the same time are of the same step.
+  std::int64_t checkpoint_of(double time) const {
+    const double every = options_.checkpoint_every;
+    return every > 0 ? static_cast<std::int64_t>(std::floor(time / every + 1e-9)) : 0;
+  }
   std::int64_t frame_of(double time) const { return static_cast<std::int64_t>(std::floor(time * options_.fps + 1e-9)); }
 
   double end_time() const { return options_.time ? *options_.time : options_.steps ? INFINITY : 5.0; }
@@ -197,10 +200,10 @@ class Run {
     if (!options_.stats_each_frame || frame_due || last) recorder_->write_row(world_, last);
     probes_->write_due(world_);
     write_due_frames();
-    if (world_.time >= next_checkpoint_) {
+    if (checkpoint_of(world_.time) >= next_checkpoint_) {
       output_.settle();  // a resumed run begins with the frame after its checkpoint
       save_checkpoint("");
-      next_checkpoint_ = options_.checkpoint_every * (std::floor(world_.time / options_.checkpoint_every) + 1);
+      next_checkpoint_ = checkpoint_of(world_.time) + 1;
     }
   }
 
@@ -281,7 +284,7 @@ class Run {
   std::unique_ptr<ProbeRecorder> probes_;
   RunSummary summary_;
   std::int64_t next_frame_ = 0;
-  double next_checkpoint_ = INFINITY;
+  std::int64_t next_checkpoint_ = 1;
   double step_seconds_ = 0, particle_steps_ = 0;
   bool stopping_ = false;  // Ctrl-C was seen after the last step
 };

@@ -1,7 +1,11 @@
 #include "app/run_record.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
 
+#include "app/options.h"
 #include "sim/core/error.h"
 #include "sim/scene/file_text.h"
 
@@ -26,6 +30,32 @@ std::vector<std::string> cells_of(const std::string& line) {
 const JsonNode* member(const JsonNode& node, const std::string& key) {
   const auto at = std::find(node.keys.begin(), node.keys.end(), key);
   return at == node.keys.end() ? nullptr : &node.items[static_cast<std::size_t>(at - node.keys.begin())];
+}
+
+// Sorted; none where there is no such folder.
+std::vector<std::string> names_in(const fs::path& folder, const char* extension) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored)) {
+    if (at->path().extension() == extension) names.push_back(at->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// What a command line says of the frames' rate, which run.json has nowhere else.
+std::optional<double> fps_of(const std::string& command) {
+  std::istringstream words(command);
+  std::string text;
+  for (std::string word; words >> word;) {
+    if (word == "--fps") words >> text;
+    if (word.starts_with("--fps=")) text = word.substr(6);
+  }
+  if (text.empty()) return RunOptions{}.fps;
+  double fps = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), fps);
+  if (status != std::errc() || end != text.data() + text.size() || !(fps > 0)) return std::nullopt;
+  return fps;
 }
 
 }  // namespace
@@ -71,6 +101,16 @@ std::string RunRecord::text(std::initializer_list<const char*> path) const {
   return node == nullptr ? "" : node->text;
 }
 
+std::optional<double> RunRecord::fps() const {
+  const JsonNode *frames_made = found({"result", "frames"}), *end = found({"result", "time"});
+  const std::optional<double> fps = fps_of(text({"command"}));
+  if (!fps || frames_made == nullptr || end == nullptr) return std::nullopt;
+  const bool agrees = frame_at(end->number, *fps) + 1 == frames_made->number;
+  return agrees ? fps : std::nullopt;
+}
+
+double frame_at(double time, double fps) { return std::floor(time * fps + 1e-9); }
+
 RunRecord read_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder.string() + ": there is no such folder, expected one of a run");
   RunRecord run;
@@ -89,10 +129,8 @@ RunRecord read_run(const fs::path& folder) {
     throw InputError((folder / "stats.csv").string() + ": has no hash of the last state, expected that of a whole run");
   std::error_code ignored;
   if (fs::exists(folder / "passes.csv", ignored)) run.passes = read_text_table(folder / "passes.csv");
-  for (fs::directory_iterator at(folder / "frames", ignored), end; !ignored && at != end; at.increment(ignored)) {
-    if (at->path().extension() == ".png") run.frames.push_back(at->path().filename().string());
-  }
-  std::sort(run.frames.begin(), run.frames.end());
+  run.frames = names_in(folder / "frames", ".png");
+  run.checkpoints = names_in(folder / "checkpoints", ".curlew");
   return run;
 }
 

@@ -152,4 +152,28 @@ Frame cut_open(const Frame& frame, const Cut& cut) {
   return rest;
 }
 
+namespace {
+
+bool shows_surface(const Look& look, int dimension) { return look.style == LookStyle::water && dimension == 3; }
+
+}  // namespace
+
+std::string shown_colour(const Look& look, int dimension) {
+  return look.style == LookStyle::particles || dimension == 2 ? look.colour_by : "none";
+}
+
+FieldSet shown_demand(const Look& look, int dimension) {
+  const FieldSet colour = colour_demand(shown_colour(look, dimension));
+  return shows_surface(look, dimension) ? colour | surface_demand() : colour;
+}
+
+Frame make_shown_frame(const World& world, const Look& look, std::shared_ptr<const FrameGeometry> geometry,
+                       SurfaceMaker& maker) {
+  const int dimension = world.scene.dimension;
+  Frame frame = make_frame(world, shown_colour(look, dimension), std::move(geometry));
+  if (look.cut) frame = cut_open(frame, *look.cut);
+  if (shows_surface(look, dimension)) frame.surface = make_surface(world, maker, look.cut);
+  return frame;
+}
+
 }  // namespace curlew

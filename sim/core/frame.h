@@ -72,7 +72,15 @@ FieldSet surface_demand();
 std::shared_ptr<const SurfaceMesh> make_surface(const World& world, SurfaceMaker& maker,
                                                 const std::optional<Cut>& cut = {});
 
-// The frame without what the cut takes away.
+// The frame without what the cut takes away; a surface is not cut, and goes.
 Frame cut_open(const Frame& frame, const Cut& cut);
+
+// What a look shows: particles with their colour, or clear water with its surface where the look is of one, without
+// what its cut takes away. Needs the fields of shown_demand().
+FieldSet shown_demand(const Look& look, int dimension);
+Frame make_shown_frame(const World& world, const Look& look, std::shared_ptr<const FrameGeometry> geometry,
+                       SurfaceMaker& maker);
+// The field that colours it: "none" for clear water.
+std::string shown_colour(const Look& look, int dimension);
 
 }  // namespace curlew

@@ -72,6 +72,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     throw InputError("cannot write " + path_ + ": it is " +
                      (fs::is_directory(status) ? "a folder" : "not a regular file") + "; choose another folder");
   }
+  error.clear();  // that there is no such file yet
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, error);
   if (error) throw InputError(write_error(path_, error.value()));
   file_ = open_beside(path_, temporary_);

@@ -204,6 +204,18 @@ TEST_CASE("each frame has its particle file, in three formats, and nothing half 
   CHECK(unfinished_files(folder.path()).empty());
 }
 
+TEST_CASE("a checkpoint and a frame of the same time are of the same step") {
+  const TemporaryFolder folder;
+  // Ten steps of 0.005 s end a little before 0.05 s.
+  run_in(folder.path(),
+         "run dam_break --particles 1k --time 0.1 --set time.fixed_step=0.005 --fps 20 --checkpoint-every 0.05 "
+         "--particles-out ply",
+         "run");
+  for (const char* file : {"checkpoints/000010.curlew", "checkpoints/000020.curlew", "particles/000002.ply"})
+    CHECK(std::filesystem::exists(folder / ("run/" + std::string(file))));
+  CHECK_FALSE(std::filesystem::exists(folder / "run/checkpoints/000011.curlew"));
+}
+
 TEST_CASE("a quiet run says nothing, and else plain lines go to where they belong") {
   const TemporaryFolder folder;
   const Setting here{folder.path()};

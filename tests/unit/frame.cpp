@@ -7,6 +7,7 @@
 
 #include "sim/core/passes.h"
 #include "sim/measure/state_hash.h"
+#include "sim/surface/surface.h"
 
 using namespace curlew;
 
@@ -121,4 +122,21 @@ TEST_CASE("a cut keeps what lies on its side, with its colours") {
   REQUIRE(high.position.size() > 100);
   for (const float y : low.value) CHECK(y <= 0.2f);
   for (const float y : high.value) CHECK(y > 0.2f);
+}
+
+TEST_CASE("clear water that is cut open has its surface, flat at the cut") {
+  World world = make_world(splash());
+  Look look;
+  look.style = LookStyle::water;
+  look.cut = Cut{0, 0.6, false};
+  prepare(world, make_plan(world, shown_demand(look, 3)));
+  SurfaceMaker maker;
+  const Frame frame = make_shown_frame(world, look, make_geometry(world.scene), maker);
+  REQUIRE(frame.surface != nullptr);
+  CHECK(frame.position.size() < world.count);
+  float farthest = 0;
+  for (const Vec3& p : frame.surface->position) farthest = std::max(farthest, p.x);
+  CHECK(farthest == Approx(0.6).margin(1e-4));
+  look.style = LookStyle::fast_water;
+  CHECK(make_shown_frame(world, look, make_geometry(world.scene), maker).surface == nullptr);
 }
