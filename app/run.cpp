@@ -81,6 +81,7 @@ Start resume(const RunOptions& options) {
     if (name == "colour_low") low = value;
     if (name == "colour_high") high = value;
     if (name == "energy_reserve") w.energy.reserve = value;
+    if (name == "wavelet_moved") w.wavelet.moved = value;
     if (name == "start_speed") w.start.speed = value;
     if (name == "start_energy") w.start.energy = value, w.start.known = true;
   }

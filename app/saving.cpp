@@ -7,6 +7,7 @@
 namespace curlew {
 
 void save_checkpoint(const std::string& file, const World& world, std::vector<std::pair<std::string, double>> numbers) {
+  if (world.wavelet.moved != 0) numbers.emplace_back("wavelet_moved", world.wavelet.moved);
   if (world.energy.reserve != 0) numbers.emplace_back("energy_reserve", world.energy.reserve);
   if (world.start.known) {
     numbers.emplace_back("start_speed", world.start.speed);

@@ -60,6 +60,11 @@ namespace curlew {
   FIELD(vorticity, Vec3, "1/s", scratch, "Curl of the velocity, difference form (Liu et al. 2020, Eq. 6).")           \
   FIELD(lost_vorticity, Vec3, "1/s", carried,                                                                         \
         "Vorticity that the last step lost (Liu et al. 2020, Eq. 12); w: volume of the particle, m^D.")               \
+  FIELD(                                                                                                              \
+      sub_particles, Vec3, "1", model,                                                                                \
+      "Vortex sub-particles (Fujisawa et al. 2011): turns of the pairs on level 0, 1, 2, from 0 to 1; w: the level.") \
+  FIELD(wavelet_energy, float, "m^2/s^2", scratch,                                                                    \
+        "Energy of the velocity at the scale of the particles (Fujisawa et al. 2011, Eq. 4, 6).")                     \
   FIELD(stream_function, Vec3, "m^2/s", scratch, "Vector potential of the lost velocity (Liu et al. 2020, Eq. 15).")
 
 enum class FieldId : std::uint8_t {

@@ -105,6 +105,45 @@
        "Push along the swirl of each vortex, in m/s^2 for a vorticity of 1/s (Macklin & Mueller 2013, section 5); " \
        "adds energy without a limit; 0 skips the passes.")
 
+#define CURLEW_WAVELET_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                           \
+  REAL(                                                                                                                \
+      amplitude, 0.0, 0.0, 5.0, 0.0, 1e6, "s/m", "A", live,                                                            \
+      "Strength of wavelet turbulence (Fujisawa et al. 2011, Eq. 9): eddies smaller than the flow resolves, where it " \
+      "has energy at the scale of its particles; 0 skips the passes.")                                                 \
+  CHOICE(                                                                                                              \
+      form, rate, "", live,                                                                                            \
+      "Acceleration A e y / tau (rate), the same whatever the time step, or with the step in place of tau, as in the " \
+      "paper.",                                                                                                        \
+      rate, step)                                                                                                      \
+  REAL(reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "tau", live, "Time of the rate form.")                        \
+  REAL(                                                                                                                \
+      scale, 0.5, 0.3, 0.6, 0.2, 1.0, "d", "s", live,                                                                  \
+      "Scale of the wavelet (Eq. 6) that finds the turbulence, in spacings; its neighbours end at sph.h_over_d times " \
+      "two.")                                                                                                          \
+  COUNT(octaves, 2, 1, 4, 1, 8, "1", "", live,                                                                         \
+        "Bands of the turbulence that is put in (Eq. 8): the finest has cells of one spacing, each other twice the "   \
+        "size of the one before.")                                                                                     \
+  REAL(threshold, 1e-3, 0.0, 0.1, 0.0, 1e6, "m^2/s^2", "", live,                                                       \
+       "Wavelet energy that counts as calm: only what is above it acts.")                                              \
+  REAL(                                                                                                                \
+      renewal, 1.0, 0.0, 4.0, 0.0, 1e3, "1", "", live,                                                                 \
+      "How many of its cells the noise moves on in an eddy's turnover time; 0 leaves it where it is, where it drives " \
+      "standing jets.")                                                                                                \
+  COUNT(tile, 64, 32, 128, 32, 256, "1", "", rebuild,                                                                  \
+        "Cells of the noise along each axis before it repeats: 32, 64, 128 or 256 (0.6, 5, 35, 275 MB).")
+
+#define CURLEW_SUB_PARTICLE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                     \
+  COUNT(levels, 0, 0, 3, 0, 3, "1", "L_max", live,                                                                    \
+        "Most levels of vortex sub-particles (Fujisawa et al. 2011, section 3.4): 3 splits a particle at a lively "   \
+        "surface into eight; 0 skips the passes.")                                                                    \
+  REAL(critical_energy, 0.02, 1e-3, 0.2, 1e-9, 1e6, "m^2/s^2", "e_cri", live,                                         \
+       "Wavelet energy from which on particles split (Eq. 13); 1.47 times as much for each further level.")           \
+  REAL(rise, 0.03, 0.005, 0.2, 1e-6, 1e3, "s", "", live, "Time in which levels follow a rising energy.")              \
+  REAL(decay, 0.25, 0.05, 2.0, 1e-6, 1e3, "s", "", live,                                                              \
+       "Time in which levels follow a falling energy: eddies outlive what fed them by so much, and then the surface " \
+       "is "                                                                                                          \
+       "smooth again.")
+
 #define CURLEW_ENERGY_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                            \
   FLAG(guard, true, "", live,                                                                                          \
        "Keeps the turbulence models together from adding more energy than energy.share of what the solver has lost. "  \
@@ -159,6 +198,8 @@
         "Vorticity refinement")                                                                         \
   GROUP(vorticity_confinement, VorticityConfinementParameters, CURLEW_VORTICITY_CONFINEMENT_PARAMETERS, \
         "Vorticity confinement")                                                                        \
+  GROUP(wavelet, WaveletParameters, CURLEW_WAVELET_PARAMETERS, "Wavelet turbulence")                    \
+  GROUP(sub_particles, SubParticleParameters, CURLEW_SUB_PARTICLE_PARAMETERS, "Vortex sub-particles")   \
   GROUP(energy, EnergyParameters, CURLEW_ENERGY_PARAMETERS, "Energy guard")                             \
   GROUP(time, TimeParameters, CURLEW_TIME_PARAMETERS, "Time step")                                      \
   GROUP(surface, SurfaceParameters, CURLEW_SURFACE_PARAMETERS, "Surface")

@@ -11,8 +11,10 @@
 #include "sim/sph/projection.h"
 #include "sim/turbulence/energy_guard.h"
 #include "sim/turbulence/micropolar_bender2018.h"
+#include "sim/turbulence/sub_particles_fujisawa2011.h"
 #include "sim/turbulence/vorticity_confinement_macklin2013.h"
 #include "sim/turbulence/vorticity_refinement_liu2020.h"
+#include "sim/turbulence/wavelet_turbulence_fujisawa2011.h"
 
 namespace curlew {
 namespace {
@@ -38,6 +40,8 @@ bool has_open_face(const World& w) {
 }
 bool is_viscous(const World& w) { return w.parameters().viscosity.nu > 0; }
 bool confines_vorticity(const World& w) { return w.parameters().vorticity_confinement.epsilon > 0; }
+bool adds_wavelets(const World& w) { return w.parameters().wavelet.amplitude > 0; }
+bool splits_particles(const World& w) { return w.scene.dimension == 3 && w.parameters().sub_particles.levels > 0; }
 bool is_micropolar(const World& w) { return transfer_coefficient(w.parameters()) != 0; }
 bool refines_vorticity(const World& w) { return w.parameters().vorticity_refinement.alpha > 0; }
 bool solves_poisson(const World& w) {
@@ -45,7 +49,8 @@ bool solves_poisson(const World& w) {
   return refines_vorticity(w) && w.parameters().vorticity_refinement.reconstruction == poisson;
 }
 bool guards_energy(const World& w) {
-  return w.parameters().energy.guard && (confines_vorticity(w) || is_micropolar(w) || refines_vorticity(w));
+  return w.parameters().energy.guard &&
+         (confines_vorticity(w) || is_micropolar(w) || refines_vorticity(w) || adds_wavelets(w));
 }
 bool uses_xsph(const World& w) { return w.parameters().micropolar.gamma > 0; }
 
@@ -88,6 +93,11 @@ constexpr Pass passes[] = {
      .writes = {acceleration, model_acceleration},
      .wanted = confines_vorticity,
      .run = vorticity_confinement},
+    {.name = "wavelet_turbulence",
+     .reads = {position, wavelet_energy, acceleration, model_acceleration},
+     .writes = {acceleration, model_acceleration},
+     .wanted = adds_wavelets,
+     .run = add_wavelet_turbulence},
     {.name = "time_step",
      .reads = {velocity, acceleration},
      .writes = {},
@@ -185,6 +195,12 @@ constexpr Pass passes[] = {
      .writes = {correction_diagonal, correction_mixed, corrected_diagonal},
      .wanted = is_filled,
      .run = gradient_correction},
+    {.name = "wavelet_drift",
+     .reads = {},
+     .writes = {},
+     .wanted = adds_wavelets,
+     .run = drift_wavelet_noise,
+     .essential = true},
     // Only for those who ask:
     {.name = "pressure",
      .reads = {position, density, boundary_gradient, density_stiffness, divergence_stiffness},
@@ -196,13 +212,23 @@ constexpr Pass passes[] = {
      .writes = {vorticity},
      .wanted = always,
      .run = compute_vorticity},
+    {.name = "wavelet_energy",
+     .reads = {position, velocity},
+     .writes = {wavelet_energy},
+     .wanted = always,
+     .run = find_wavelet_energy},
+    {.name = "sub_particles",
+     .reads = {wavelet_energy, density, sub_particles},
+     .writes = {sub_particles},
+     .wanted = splits_particles,
+     .run = advance_sub_particles},
 };
 
 // Whether a pass advances the state, rather than find out what depends on positions alone.
 bool advances(const Pass& pass) {
   return pass.changes_velocity || pass.writes.meets(FieldSet{acceleration} | FieldSet::of(FieldKind::model)) ||
-         pass.name == "time_step" || pass.name == "advect" || pass.name == "energy_account" ||
-         pass.name == "energy_watch";
+         pass.name == "time_step" || pass.name == "wavelet_drift" || pass.name == "advect" ||
+         pass.name == "energy_account" || pass.name == "energy_watch";
 }
 
 // Fields that a pass touches but that this world has no use for.
@@ -213,9 +239,10 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   if (!world.has_boundary()) unused = unused | boundary_fields;
   if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
   if (!guards_energy(world) || !refines_vorticity(world)) unused = unused | FieldSet{model_velocity};
-  if (!guards_energy(world) || !(confines_vorticity(world) || is_micropolar(world))) {
+  if (!guards_energy(world) || !(confines_vorticity(world) || is_micropolar(world) || adds_wavelets(world))) {
     unused = unused | FieldSet{model_acceleration};
   }
+  if (!splits_particles(world)) unused = unused | FieldSet{sub_particles};
   if (!is_micropolar(world)) unused = unused | FieldSet{microrotation};
   const bool no_slip = world.walls.any_no_slip() || world.bodies.any_no_slip();
   if (!is_viscous(world) || !no_slip) unused = unused | FieldSet{boundary_friction};
@@ -305,6 +332,11 @@ void allocate(World& world, const Plan& plan) {
   if (world.fields.microrotation.empty()) world.backup.microrotation = Array<Vec3>();
   if (world.fields.predicted_vorticity.empty()) world.backup.predicted_vorticity = Array<Vec3>();
   if (!guards_energy(world)) world.energy = {};
+  if (!adds_wavelets(world)) {
+    world.wavelet = {};
+  } else if (world.wavelet.noise == nullptr) {
+    world.wavelet.noise = make_wavelet_noise(world.parameters().wavelet, world.seed);
+  }
   if (!solves_poisson(world)) {
     world.potential = {};
   } else if (world.potential.empty()) {

@@ -63,6 +63,16 @@ inline f8 nearest(f8 v) {
 #endif
 }
 
+// e^v for v from -80 to 80, to about 2e-7 relative: e^v = 2^n e^r with |r| <= ln(2) / 2.
+inline f8 exponential(f8 v) {
+  const f8 n = nearest(v * 1.44269504f);
+  const f8 r = (v - n * 0.693359375f) + n * 2.12194440e-4f;  // ln 2 in two parts
+  const f8 series =
+      1.0f + r * (1.0f + r * (1.0f / 2 + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720))))));
+  const i8 exponent = __builtin_convertvector(n, i8) + 127;
+  return series * std::bit_cast<f8>(exponent << 23);
+}
+
 // Eight vectors, one component a register.
 struct Vec8 {
   f8 x, y, z, w;

@@ -33,8 +33,8 @@ double wall_speed(const Scene& scene) {
 
 bool has_free_model(const World& world) {
   const Parameters& p = world.parameters();
-  return !p.energy.guard &&
-         (p.vorticity_confinement.epsilon > 0 || p.vorticity_refinement.alpha > 0 || transfer_coefficient(p) != 0);
+  return !p.energy.guard && (p.vorticity_confinement.epsilon > 0 || p.vorticity_refinement.alpha > 0 ||
+                             p.wavelet.amplitude > 0 || transfer_coefficient(p) != 0);
 }
 
 bool is_driven(const World& world) {

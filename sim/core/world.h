@@ -14,6 +14,7 @@
 #include "sim/sph/obstacles.h"
 #include "sim/sph/walls.h"
 #include "sim/turbulence/vector_potential.h"
+#include "sim/turbulence/wavelet_noise.h"
 
 namespace curlew {
 
@@ -58,6 +59,13 @@ struct Start {
   bool known = false;
 };
 
+// The noise of wavelet turbulence: kept while its pass is planned.
+struct WaveletState {
+  std::shared_ptr<const WaveletNoise> noise;
+  double mean_energy = 0;  // m^2/s^2, of the particles on which it acted in this step
+  double moved = 0;        // cells of the coarsest octave by which the noise has moved on; state
+};
+
 struct World {
   Scene scene;
   std::uint64_t seed = 0;
@@ -84,6 +92,7 @@ struct World {
   Backup backup;
 
   VectorPotential potential;  // empty while no pass needs it
+  WaveletState wavelet;
 
   // Reused by the sort.
   std::vector<std::uint32_t> order;

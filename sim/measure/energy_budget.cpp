@@ -18,6 +18,7 @@ constexpr Name names[] = {
     {"gravity", "work_gravity", true, true},
     {"viscosity", "loss_viscosity", false, true},
     {"vorticity_confinement", "work_vorticity_confinement", true, true},
+    {"wavelet_turbulence", "work_wavelet_turbulence", true, true},
     {"micropolar", "work_micropolar", true, true},
     {"energy_guard", "work_energy_guard", true, true},
     {"xsph", "loss_xsph", false, false},
