@@ -16,17 +16,20 @@ using Clock = std::chrono::steady_clock;
 struct SurfaceCase {
   const char* name;
   const char* particles;
-  double time;  // s of the dam break before it is measured
-  double cell;  // particle radii
+  double time;     // s of the dam break before it is measured
+  double cell;     // particle radii
+  int levels = 0;  // of vortex sub-particles
 };
 
 // A block at rest, and the moment at which the dam break is torn apart most, after it hit the far wall.
-constexpr SurfaceCase cases[] = {
-    {"block", "100k", 0, 1}, {"splash", "100k", 0.9, 1}, {"splash", "20k", 0.9, 1.5}, {"splash", "20k", 0.9, 1}};
+constexpr SurfaceCase cases[] = {{"block", "100k", 0, 1},     {"splash", "100k", 0.9, 1},
+                                 {"splash", "20k", 0.9, 1.5}, {"splash", "20k", 0.9, 1},
+                                 {"splash", "40k", 0.9, 1},   {"splash, split", "40k", 0.9, 1, 3}};
 
 World state_at(const SurfaceCase& c, const BenchOptions& options) {
   Scene scene = bench_scene("dam_break", 0, c.particles, options);
   scene.parameters.surface.cell = c.cell;
+  scene.parameters.sub_particles.levels = c.levels;
   World world = make_world(scene);
   const Plan plan = make_plan(world, {FieldId::density});
   prepare(world, plan);
@@ -53,7 +56,8 @@ int bench_surface(const BenchOptions& options) {
     std::vector<double> all, level_set, polygonise, smooth;
     for (int k = 0; k < repeats; ++k) {
       const auto begin = Clock::now();
-      maker.make({world.fields.position, world.fields.density}, world.scene);
+      const Fields& f = world.fields;
+      maker.make({f.position, f.density, {}, f.sub_particles, f.id, world.time}, world.scene);
       all.push_back(1e3 * std::chrono::duration<double>(Clock::now() - begin).count());
       level_set.push_back(maker.times().level_set);
       polygonise.push_back(maker.times().polygonise);

@@ -160,6 +160,9 @@ void add_run_options(CLI::App& app, RunOptions& o) {
         o.particles_out = parse_word("--particles-out", t, {"vtk", "ply", "bgeo"});
       },
       "Write particles each frame: vtk, ply or bgeo");
+  app.add_flag("--sub-particles", o.sub_particles,
+               "In these, vortex sub-particles in place of particles that have split, with their radius")
+      ->disable_flag_override();
   app.add_option_function<std::string>(
       "--mesh-out",
       [&](const std::string& t) {
@@ -235,35 +238,38 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   }
   const auto name = [&o, names](const std::string& t) { o.name = parse_word("the benchmark", t, names); };
   app.add_option_function<std::string>("NAME", name, help)->required();
-  app.add_option(
-      "--cases", o.cases,
-      "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; stability too: 2k in 2D, 5k in 3D; "
-      "accuracy: as its scenes have)");
+  app.add_option("--cases", o.cases,
+                 "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; turbulence too, across: 48; "
+                 "stability too: 2k "
+                 "in 2D, 5k in 3D; "
+                 "accuracy: as its scenes have)");
   app.add_option("CASE", o.names, "accuracy: its cases (all); stability: its lines and planes (all)");
   app.add_option("--set", o.settings, "key=value: any parameter, repeatable")->allow_extra_args(false);
   app.add_option_function<std::string>(
       "--threads", [&](const std::string& t) { o.threads = parse_threads(t); }, "Threads (all cores)");
   app.add_option_function<std::string>(
       "--share", [&](const std::string& t) { o.time_share = parse_positive("--share", t, ""); },
-      "speed: run this share of each case's time (1)");
+      "speed, accuracy, turbulence: run this share of each case's time (1)");
   app.add_option_function<std::string>(
       "--at-least", [&](const std::string& t) { o.at_least = parse_positive("--at-least", t, ""); },
       "speed: exit 1 where a case makes fewer million particle-steps a second");
   app.add_option("--scenes", o.scenes,
                  "energy: dam_break, hemisphere (both); stability: dam_break_2d, dam_break (both)");
-  app.add_option("--methods", o.methods,
-                 "energy, overhead, cavity, taylor_green_3d: dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or "
-                 "sums such as "
-                 "vr1.0+mp0.05 (those of the paper)");
+  app.add_option(
+      "--methods", o.methods,
+      "energy, overhead, turbulence, cavity, taylor_green_3d: dfsph, vr1.0, sum1.0, mp0.05, vc0.1, wt0.02 with "
+      "any strength, or sums such as vr1.0+mp0.05 (those of the paper)");
   app.add_option("--settings", o.rows,
                  "accuracy, error against run time: which rows of its tables, such as default accurate (all)");
   app.add_option("--nu", o.nu, "energy: viscosities in m^2/s (0 0.05); cavity: 0.01, 0.001, 0.0001 (the last two)");
   app.add_option_function<std::string>(
       "--time", [&](const std::string& t) { o.time = parse_positive("--time", t, "seconds"); },
-      "energy, stability: simulated seconds (12, hemisphere 20, stability 4); overhead: seconds before it measures "
-      "(0.4)");
+      "energy, stability, turbulence: simulated seconds (12, hemisphere 20, stability 4, turbulence two turnover "
+      "times); overhead: seconds before it measures (0.4)");
   add_path(app, "--out", o.out,
-           "energy, stability: folder (out/energy, out/stability); runs that are complete in it are not run again");
+           "energy, stability: folder (out/energy, out/stability); runs that are complete in it are not run again; "
+           "accuracy, "
+           "turbulence: folder for tables and plots (none)");
 }
 
 // An option that the benchmark would not read.

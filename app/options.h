@@ -27,6 +27,7 @@ struct RunOptions {
   int width = 1280, height = 720;
   std::string video;
   std::string particles_out;    // vtk, ply, bgeo or empty
+  bool sub_particles = false;   // in particles_out, in place of particles that have split
   std::string mesh_out;         // ply, obj or empty
   double checkpoint_every = 0;  // s of simulated time, 0: none
   std::string resume;

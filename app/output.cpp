@@ -7,6 +7,7 @@
 #include "sim/core/error.h"
 #include "sim/io/mesh_files.h"
 #include "sim/io/particle_files.h"
+#include "sim/turbulence/sub_particles_fujisawa2011.h"
 
 namespace curlew {
 namespace {
@@ -25,10 +26,14 @@ FrameOutput::FrameOutput(const RunOptions& options, const Scene& scene, const st
       format_(options.particles_out),
       mesh_format_(options.mesh_out),
       png_(options.frames),
+      split_(options.sub_particles),
       range_(range) {
   if (!mesh_format_.empty() && scene.dimension != 3) {
     throw InputError("--mesh-out makes surfaces of three-dimensional water, and " + scene.file.string() +
                      " has two dimensions");
+  }
+  if (split_ && format_.empty()) {
+    throw InputError("--sub-particles is about particle files; give --particles-out too, for example vtk");
   }
   view_.camera = scene.camera;
   view_.look = scene.look;
@@ -78,7 +83,29 @@ void FrameOutput::write(const World& world, std::int64_t frame) {
 
 void FrameOutput::write_particles(const World& world, std::int64_t frame) const {
   const Fields& f = world.fields;
-  const ParticleExport particles{world.time, world.step, f.id, f.position, f.velocity, f.density, {}};
+  if (!split_) {
+    write_particle_file({world.time, world.step, f.id, f.position, f.velocity, f.density, {}}, frame);
+    return;
+  }
+  const std::vector<Vec3> whole(f.sub_particles.empty() ? world.count : 0);
+  const SplitParticles parts =
+      split_particles({f.position, f.id, f.sub_particles.empty() ? std::span<const Vec3>(whole) : f.sub_particles,
+                       world.time, world.scene.particle_radius});
+  const auto of_parent = [&](const auto& field) {
+    std::vector<std::remove_cvref_t<decltype(field[0])>> values;
+    values.reserve(parts.parent.size());
+    for (const std::uint32_t i : parts.parent) values.push_back(field[i]);
+    return values;
+  };
+  const auto id = of_parent(f.id);
+  const auto velocity = of_parent(f.velocity);
+  const auto density = of_parent(f.density);
+  std::vector<float> radius;
+  for (const float share : parts.share) radius.push_back(share * static_cast<float>(world.scene.particle_radius));
+  write_particle_file({world.time, world.step, id, parts.position, velocity, density, {{"radius", radius}}}, frame);
+}
+
+void FrameOutput::write_particle_file(const ParticleExport& particles, std::int64_t frame) const {
   const std::string file = numbered(folder_, "particles", frame, format_);
   if (format_ == "vtk") write_vtk(file, particles);
   if (format_ == "ply") write_ply(file, particles);
@@ -87,7 +114,8 @@ void FrameOutput::write_particles(const World& world, std::int64_t frame) const 
 
 void FrameOutput::write_mesh(const World& world, std::int64_t frame) {
   const Fields& f = world.fields;
-  const SurfaceMesh& mesh = surface_.make({f.position, f.density, f.velocity}, world.scene);
+  const SurfaceMesh& mesh =
+      surface_.make({f.position, f.density, f.velocity, f.sub_particles, f.id, world.time}, world.scene);
   const std::string file = numbered(folder_, "mesh", frame, mesh_format_);
   if (mesh_format_ == "ply") write_mesh_ply(file, mesh, world.time, world.step);
   if (mesh_format_ == "obj") write_mesh_obj(file, mesh, world.time, world.step);

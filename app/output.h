@@ -13,6 +13,7 @@
 #include "render/video.h"
 #include "sim/core/frame.h"
 #include "sim/core/world.h"
+#include "sim/io/particle_files.h"
 #include "sim/surface/surface.h"
 
 namespace curlew {
@@ -37,11 +38,12 @@ class FrameOutput {
   void finish();
 
  private:
+  void write_particle_file(const ParticleExport& particles, std::int64_t frame) const;
   void write_particles(const World& world, std::int64_t frame) const;
   void write_mesh(const World& world, std::int64_t frame);
 
   std::string folder_, format_, mesh_format_;
-  bool png_ = false;
+  bool png_ = false, split_ = false;
   ViewSettings view_;
   std::optional<std::array<double, 2>> range_;
   std::shared_ptr<const FrameGeometry> geometry_;

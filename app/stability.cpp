@@ -51,6 +51,7 @@ const std::vector<StabilityAxis>& stability_axes() {
       {"nu_t", "micropolar, ν_t (m²/s)", &P::nu_t, 0.2, "with ν_t from 0.2 m²/s on the water never calms down"},
       {"eta", "smoothing of the spin, η (1)", &P::eta, none, ""},
       {"epsilon", "confinement, ε (m/s)", &P::epsilon, none, ""},
+      {"amplitude", "wavelet turbulence, A (s/m)", &P::amplitude, none, ""},
       {"step", "time step over the default's, by all its limits (1)", &P::step, none, ""},
       {"viscosity", "viscosity, ν dt_max / (viscosity_factor d²) (1)", &P::viscosity, none, ""},
       {"viscosity_factor", "time.viscosity_factor over its default (1)", &P::viscosity_factor, none, ""},
@@ -64,6 +65,7 @@ const std::vector<StabilityMap>& stability_maps() {
       line("nu_t", {0, 0.05, 0.1, 0.2, 0.4, 0.7, 1}),
       line("eta", {0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1}, {.nu_t = 0.2}, "ν_t = 0.2 m²/s"),
       line("epsilon", {0, 0.05, 0.1, 0.2, 0.5, 1, 2}),
+      line("amplitude", {0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2}),
       line("step", {1, 1.5, 2, 2.5, 3, 3.5, 4}),
       line("viscosity", {0, 0.25, 0.5, 1, 2, 4, 8}),
       line("viscosity_factor", {1, 1.5, 2, 3, 4, 6, 8}, {.viscosity = 16}, "ν 16 times what makes its limit bind"),
@@ -84,7 +86,7 @@ StabilityPoint StabilityMap::at(double x_value, double y_value, bool guard) cons
 
 StabilityPoint canonical(StabilityPoint point) {
   if (point.nu_t == 0) point.eta = StabilityPoint{}.eta;
-  if (point.alpha == 0 && point.nu_t == 0 && point.epsilon == 0) point.guard = false;
+  if (point.alpha == 0 && point.nu_t == 0 && point.epsilon == 0 && point.amplitude == 0) point.guard = false;
   return point;
 }
 
@@ -96,6 +98,7 @@ Scene at_point(Scene scene, const StabilityPoint& point) {
   p.micropolar.nu_t = point.nu_t;
   p.micropolar.eta = point.eta;
   p.vorticity_confinement.epsilon = point.epsilon;
+  p.wavelet.amplitude = point.amplitude;
   p.energy.guard = point.guard;
   p.viscosity.nu = point.viscosity * p.time.viscosity_factor * d * d / p.time.max_step;
   p.time.viscosity_factor *= point.viscosity_factor;

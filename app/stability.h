@@ -15,7 +15,7 @@ namespace curlew {
 
 // The default is plain DFSPH.
 struct StabilityPoint {
-  double alpha = 0, nu_t = 0, eta = 0.125, epsilon = 0;
+  double alpha = 0, nu_t = 0, eta = 0.125, epsilon = 0, amplitude = 0;
   double step = 1;              // times time.cfl, time.acceleration_factor and time.max_step
   double viscosity = 0;         // times the nu whose step limit is time.max_step
   double viscosity_factor = 1;  // times time.viscosity_factor

@@ -93,8 +93,9 @@ std::vector<float> crowding(std::span<const Vec3> positions, const Domain& domai
 std::vector<Vec3> sized_particles(const Frame& frame, const DropSize& size) {
   const FrameGeometry& geometry = *frame.geometry;
   std::vector<Vec3> sized = frame.position;
+  const auto share = [&](std::size_t i) { return frame.size.empty() ? 1.0f : frame.size[i]; };
   if (size.alone == size.in_water) {
-    for (Vec3& p : sized) p.w = 1;
+    for (std::size_t i = 0; i < sized.size(); ++i) sized[i].w = share(i);
     return sized;
   }
   const auto crowded = crowding(frame.position, geometry.domain, geometry.dimension, 2 * geometry.particle_radius);
@@ -103,7 +104,7 @@ std::vector<Vec3> sized_particles(const Frame& frame, const DropSize& size) {
   for (std::size_t i = 0; i < sized.size(); ++i) {
     const double t = std::clamp((static_cast<double>(crowded[i]) - none) / (enough - none), 0.0, 1.0);
     const double grown = t * t * (3 - 2 * t);
-    sized[i].w = static_cast<float>((size.alone + grown * (size.in_water - size.alone)) / size.in_water);
+    sized[i].w = share(i) * static_cast<float>((size.alone + grown * (size.in_water - size.alone)) / size.in_water);
   }
   return sized;
 }

@@ -22,6 +22,8 @@ std::string label_of(const ParameterRow& row) {
   if (row.key == "micropolar.nu_t") name = "spin transfer";
   if (row.key == "micropolar.eta") name = "smoothing of spins";
   if (row.key == "vorticity_confinement.epsilon") name = "confinement";
+  if (row.key == "wavelet.amplitude") name = "wavelet turbulence";
+  if (row.key == "sub_particles.levels") name = "sub-particles";
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string label = row.symbol.empty() ? name : written_symbol(row.symbol) + "  " + name;
   if (row.unit != "1" && !row.unit.empty()) label += " (" + written_unit(row.unit) + ")";

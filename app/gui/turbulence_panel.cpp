@@ -10,21 +10,6 @@
 namespace curlew {
 namespace {
 
-// A model that is to come has its place already, so that hands find it there.
-void draw_model_to_come(const char* symbol, const char* name, const char* doc) {
-  double zero = 0;
-  const double low = 0, high = 1;
-  ImGui::BeginDisabled();
-  ImGui::SetNextItemWidth(slider_width());
-  ImGui::SliderScalar((std::string("##") + name).c_str(), ImGuiDataType_Double, &zero, &low, &high, "off");
-  ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s\nThis version does not have the model yet.", doc);
-  }
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s  %s", written_symbol(symbol).c_str(), name);
-}
-
 void preset_tool_tip(const TurbulencePreset& preset) {
   if (!ImGui::IsItemHovered()) return;
   const auto setting = [](const char* key, double value) {
@@ -35,10 +20,11 @@ void preset_tool_tip(const TurbulencePreset& preset) {
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(28 * ImGui::GetFontSize());
   ImGui::TextUnformatted(preset.doc);
-  ImGui::TextDisabled("Sets %s, %s, %s, and the inviscid micropolar model; all else stays.",
-                      setting("vorticity_refinement.alpha", preset.alpha).c_str(),
-                      setting("micropolar.nu_t", preset.nu_t).c_str(),
-                      setting("vorticity_confinement.epsilon", preset.epsilon).c_str());
+  ImGui::TextDisabled(
+      "Sets %s, %s, %s, %s, %s, and the inviscid micropolar model; all else stays.",
+      setting("vorticity_refinement.alpha", preset.alpha).c_str(), setting("micropolar.nu_t", preset.nu_t).c_str(),
+      setting("vorticity_confinement.epsilon", preset.epsilon).c_str(),
+      setting("wavelet.amplitude", preset.amplitude).c_str(), setting("sub_particles.levels", preset.levels).c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -51,6 +37,8 @@ std::span<const std::string_view> turbulence_keys() {
                                               "micropolar.nu_t",
                                               "micropolar.eta",
                                               "vorticity_confinement.epsilon",
+                                              "wavelet.amplitude",
+                                              "sub_particles.levels",
                                               "energy.guard"};
   return keys;
 }
@@ -87,7 +75,6 @@ void Interface::draw_preset_choice() {
 void Interface::draw_turbulence() {
   draw_preset_choice();
   for (const std::string_view key : turbulence_keys()) draw_parameter(parameter_row(key));
-  draw_model_to_come("A", "wavelet amplitude", "Strength of the synthesised turbulence (Fujisawa et al. 2011).");
 }
 
 }  // namespace curlew

@@ -9,6 +9,7 @@
 #include "sim/scene/shapes.h"
 #include "sim/surface/surface.h"
 #include "sim/turbulence/micropolar_bender2018.h"
+#include "sim/turbulence/sub_particles_fujisawa2011.h"
 
 namespace curlew {
 namespace {
@@ -116,6 +117,23 @@ std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene) {
   return geometry;
 }
 
+namespace {
+
+// Sub-particles take the place of their particles, with their colours.
+void show_sub_particles(Frame& frame, const World& world) {
+  const Fields& f = world.fields;
+  SplitParticles split = split_particles({f.position, f.id, f.sub_particles, world.time, world.scene.particle_radius});
+  frame.position = std::move(split.position);
+  frame.size = std::move(split.share);
+  if (frame.value.empty()) return;
+  std::vector<float> value;
+  value.reserve(split.parent.size());
+  for (const std::uint32_t i : split.parent) value.push_back(frame.value[i]);
+  frame.value = std::move(value);
+}
+
+}  // namespace
+
 Frame make_frame(const World& world, std::string_view colour_name, std::shared_ptr<const FrameGeometry> geometry) {
   const ColourSource& source = source_of(colour_name);
   Frame frame;
@@ -124,9 +142,11 @@ Frame make_frame(const World& world, std::string_view colour_name, std::shared_p
   frame.position.assign(world.fields.position.begin(), world.fields.position.end());
   frame.colour = source.field;
   frame.geometry = std::move(geometry);
-  if (source.value == nullptr) return frame;
-  frame.value.resize(world.count);
-  parallel_for(world.count, [&](std::size_t i) { frame.value[i] = source.value(world, i); });
+  if (source.value != nullptr) {
+    frame.value.resize(world.count);
+    parallel_for(world.count, [&](std::size_t i) { frame.value[i] = source.value(world, i); });
+  }
+  if (!world.fields.sub_particles.empty()) show_sub_particles(frame, world);
   return frame;
 }
 
@@ -135,27 +155,38 @@ FieldSet surface_demand() { return {position, density}; }
 std::shared_ptr<const SurfaceMesh> make_surface(const World& world, SurfaceMaker& maker,
                                                 const std::optional<Cut>& cut) {
   const Fields& f = world.fields;
-  if (!cut) return std::make_shared<const SurfaceMesh>(maker.make({f.position, f.density}, world.scene));
-  std::vector<Vec3> left;
-  std::vector<float> left_density;
-  for (std::size_t i = 0; i < world.count; ++i) {
-    if (!keeps(*cut, f.position[i])) continue;
-    left.push_back(f.position[i]);
-    left_density.push_back(f.density[i]);
+  const auto made = [&](const SurfaceParticles& particles, const Scene& scene) {
+    return std::make_shared<const SurfaceMesh>(maker.make(particles, scene));
+  };
+  if (!cut) return made({f.position, f.density, {}, f.sub_particles, f.id, world.time}, world.scene);
+  std::vector<std::uint32_t> left;
+  for (std::uint32_t i = 0; i < world.count; ++i) {
+    if (keeps(*cut, f.position[i])) left.push_back(i);
   }
+  const auto of_left = [&](const auto& field) {
+    std::vector<std::remove_cvref_t<decltype(field[0])>> values;
+    if (!field.empty()) {
+      for (const std::uint32_t i : left) values.push_back(field[i]);
+    }
+    return values;
+  };
   // The cut is as flat as a wall.
   Scene scene = world.scene;
   (cut->keep_high ? scene.domain.min : scene.domain.max)[cut->axis] = cut->at;
   scene.domain.periodic[static_cast<std::size_t>(cut->axis)] = false;
   scene.domain.walls[static_cast<std::size_t>(2 * cut->axis + (cut->keep_high ? 0 : 1))].kind = WallKind::slip;
-  return std::make_shared<const SurfaceMesh>(maker.make({left, left_density}, scene));
+  const auto position = of_left(f.position), parts = of_left(f.sub_particles);
+  const auto density = of_left(f.density);
+  const auto id = of_left(f.id);
+  return made({position, density, {}, parts, id, world.time}, scene);
 }
 
 Frame cut_open(const Frame& frame, const Cut& cut) {
-  Frame rest{frame.time, frame.step, {}, {}, frame.colour, frame.geometry, nullptr};
+  Frame rest{frame.time, frame.step, {}, {}, {}, frame.colour, frame.geometry, nullptr};
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     if (!keeps(cut, frame.position[i])) continue;
     rest.position.push_back(frame.position[i]);
+    if (!frame.size.empty()) rest.size.push_back(frame.size[i]);
     if (!frame.value.empty()) rest.value.push_back(frame.value[i]);
   }
   return rest;

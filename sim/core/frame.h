@@ -45,7 +45,8 @@ struct FrameGeometry {
 struct Frame {
   double time = 0;  // s
   std::int64_t step = 0;
-  std::vector<Vec3> position;  // m
+  std::vector<Vec3> position;  // m; of particles that have split, their sub-particles
+  std::vector<float> size;     // radius over the particle radius, one a position; empty: 1
   std::vector<float> value;    // of the colour field, one a particle; empty for plain water colour
   ColourField colour;
   std::shared_ptr<const FrameGeometry> geometry;
@@ -81,6 +82,6 @@ FieldSet shown_demand(const Look& look, int dimension);
 Frame make_shown_frame(const World& world, const Look& look, std::shared_ptr<const FrameGeometry> geometry,
                        SurfaceMaker& maker);
 // The field that colours it: "none" for clear water.
-std::string shown_colour(const Look& look, int dimension);
+std::string shown_colour(const Look& look, int dimension);  // dimension: of the scene
 
 }  // namespace curlew

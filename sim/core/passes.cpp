@@ -221,7 +221,8 @@ constexpr Pass passes[] = {
      .reads = {wavelet_energy, density, sub_particles},
      .writes = {sub_particles},
      .wanted = splits_particles,
-     .run = advance_sub_particles},
+     .run = advance_sub_particles,
+     .essential = true},
 };
 
 // Whether a pass advances the state, rather than find out what depends on positions alone.

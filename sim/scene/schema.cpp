@@ -209,10 +209,9 @@ JsonNode look_node() {
       {{"style", one_of_names(look_style_names(),
                               "The particles as spheres, clear water by the mesh of its surface, or clear water by its "
                               "particles on the screen.")},
-       {"colour_by",
-        one_of_names(
-            fields,
-            "Field that colours the particles; microrotation and lost_vorticity are 0 while their models are off.")},
+       {"colour_by", one_of_names(fields,
+                                  "Field that colours the particles; microrotation, lost_vorticity and "
+                                  "sub_particle_level are 0 while their models are off.")},
        {"colour_map", one_of_names(colour_map_names())},
        {"range", array_of(typed("number"), 2, 2, "Ends of the colour scale; from the run's data where absent.")},
        {"cut", cut_node()},

@@ -8,7 +8,7 @@ bool is_cut_off(const Domain& domain, int axis, int side) {
 }
 
 void collect_images(std::span<const Vec3> particles, const Domain& domain, Vec3 reach, std::vector<Vec3>& position,
-                 std::vector<ImageOrigin>& origin) {
+                    std::vector<ImageOrigin>& origin) {
   position.assign(particles.begin(), particles.end());
   origin.resize(particles.size());
   for (std::size_t i = 0; i < origin.size(); ++i) origin[i] = ImageOrigin(static_cast<std::uint32_t>(i));

@@ -31,6 +31,6 @@ class ImageOrigin {
 // Fills in the particles, in their order, and after them the images that lie within `reach` (m along each axis) of the
 // domain.
 void collect_images(std::span<const Vec3> particles, const Domain& domain, Vec3 reach, std::vector<Vec3>& position,
-                 std::vector<ImageOrigin>& origin);
+                    std::vector<ImageOrigin>& origin);
 
 }  // namespace curlew

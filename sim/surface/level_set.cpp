@@ -94,7 +94,8 @@ void LevelSet::collect_sources(const SurfaceSources& sources, const Domain& doma
   });
 }
 
-void LevelSet::find_bricks(double spacing) {
+void LevelSet::find_bricks(const SurfaceSources& sources) {
+  const double spacing = sources.spacing;
   const double in_octant = cell_.x * cell_.y * cell_.z * points / 8 / (spacing * spacing * spacing);
   const bool by_octant = in_octant >= 7;
   const double wanted = full_share * in_octant * (by_octant ? 1 : 8);
@@ -121,7 +122,7 @@ void LevelSet::find_bricks(double spacing) {
         most[a] = std::max(most[a], p[axis]);
         octant = 2 * octant + (p[axis] >= middle[a] ? 1 : 0);
       }
-      ++number[octant];
+      if (sources.kind.empty() || sources.kind[origin_[i].number()] == 0) ++number[octant];
     }
     unsigned all = 0;
     for (unsigned k = 0; k < 8; ++k) {
@@ -276,12 +277,13 @@ std::span<const std::uint32_t> LevelSet::find_sources(const Brick& brick, Search
 void LevelSet::sum_sources(const SurfaceSources& sources) {
   values_.resize(bricks_.size() * points);
   inside_.resize(bricks_.size());
-  const bool round = sources.shape.size() == 1;
+  const bool round = sources.shape.size() == 1 || !sources.kind.empty();
   const std::array<float, 3> per_cell{static_cast<float>(1 / cell_.x), static_cast<float>(1 / cell_.y),
                                       static_cast<float>(1 / cell_.z)};
   const auto local = [&](std::uint32_t j, Vec3 first) {
     const ImageOrigin origin = origin_[j];
-    const SourceShape& shape = sources.shape[round ? 0 : origin.number()];
+    const std::size_t own = origin.number();
+    const SourceShape& shape = sources.shape[!sources.kind.empty() ? sources.kind[own] : round ? 0 : own];
     const Vec3 p = position_[j] - first;
     const auto cx = 1 / per_cell[0], cy = 1 / per_cell[1], cz = 1 / per_cell[2];
     const auto sign = [&](int a, int b) {  // of a mixed term, under reflection
@@ -360,7 +362,7 @@ void LevelSet::build(const SurfaceSources& sources, const Domain& domain, double
   iso_ = static_cast<float>(iso);
   lay_out(domain, cell);
   collect_sources(sources, domain);
-  find_bricks(sources.spacing);
+  find_bricks(sources);
   sum_sources(sources);
 }
 

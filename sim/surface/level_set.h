@@ -32,7 +32,9 @@ SourceShape round_shape(double radius);
 // What the level set is made from. The arrays stay the caller's.
 struct SurfaceSources {
   std::span<const Vec3> position;      // m; w: the source's w_j
-  std::span<const SourceShape> shape;  // one a source, or one for all
+  std::span<const SourceShape> shape;  // one a source, or one for all, or those that `kind` counts, all round
+  std::span<const std::uint8_t> kind;  // number of each source's shape; where it is not 0, the source is part of a
+                                       // particle and does not count when full water is looked for
   double spacing = 0;                  // m: where the water is full, a source stands for a cube of this side
 };
 
@@ -102,7 +104,7 @@ class LevelSet {
 
   void lay_out(const Domain& domain, double cell);
   void collect_sources(const SurfaceSources& sources, const Domain& domain);
-  void find_bricks(double spacing);
+  void find_bricks(const SurfaceSources& sources);
   void link_bricks(const std::vector<Occupied>& occupied);
   void sum_sources(const SurfaceSources& sources);
   void cut_off(std::size_t brick);

@@ -32,13 +32,10 @@ double milliseconds(F&& f) {
 
 }  // namespace
 
-const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const Scene& scene) {
+// The particles with the peaks of their kernels.
+void SurfaceMaker::make_sources(const SurfaceParticles& particles, const Scene& scene) {
   const SurfaceParameters& p = scene.parameters.surface;
-  const double d = scene.spacing(), cell = p.cell * scene.particle_radius, radius = p.kernel_radius * d;
-  if (radius > LevelSet::side * cell) {
-    throw InputError("surface.kernel_radius is " + number_text(p.kernel_radius) + ", expected at most " +
-                     number_text(LevelSet::side * cell / d) + " with surface.cell " + number_text(p.cell));
-  }
+  const double d = scene.spacing();
   // How crowded a particle is: 0 alone, 1 in the midst of water. Sprays lose their neighbours' share of phi, which is
   // made up for.
   const Kernel kernel(d * scene.parameters.sph.h_over_d, 3, static_cast<KernelKind>(scene.parameters.sph.kernel));
@@ -56,23 +53,45 @@ const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const S
     }
     sources_[i].w = static_cast<float>(factor * weight);
   });
+}
+
+const SurfaceMesh& SurfaceMaker::make(const SurfaceParticles& particles, const Scene& scene) {
+  const SurfaceParameters& p = scene.parameters.surface;
+  const double d = scene.spacing(), cell = p.cell * scene.particle_radius, radius = p.kernel_radius * d;
+  if (radius > LevelSet::side * cell) {
+    throw InputError("surface.kernel_radius is " + number_text(p.kernel_radius) + ", expected at most " +
+                     number_text(LevelSet::side * cell / d) + " with surface.cell " + number_text(p.cell));
+  }
+  make_sources(particles, scene);
+  const bool splits = !particles.sub_particles.empty();
   times_.level_set = milliseconds([&] {
     shapes_.assign(1, round_shape(radius));
+    if (splits) {
+      sub_sources_.split(
+          sources_, {particles.position, particles.id, particles.sub_particles, particles.time, scene.particle_radius});
+      for (int level = 1; level <= most_sub_levels; ++level)
+        shapes_.push_back(round_shape(sub_particle_share(level) * radius));
+      level_set_.build({sub_sources_.sources(), shapes_, sub_sources_.kind(), d}, scene.domain, cell, p.iso);
+      return;
+    }
+    sub_sources_ = {};
     if (p.anisotropic) shape_finder_.run(sources_, scene.domain, d, radius, shapes_);
-    level_set_.build({sources_, shapes_, d}, scene.domain, cell, p.iso);
+    level_set_.build({sources_, shapes_, {}, d}, scene.domain, cell, p.iso);
   });
   const auto normals = p.smoothing > 0 ? Polygoniser::Normals::straight : Polygoniser::Normals::gradient;
   times_.polygonise = milliseconds([&] { polygoniser_.run(level_set_, normals, mesh_); });
   times_.smooth = milliseconds([&] { smoother_.run(mesh_, p.smoothing, scene.domain); });
   mesh_.velocity.clear();
-  if (!particles.velocity.empty()) find_vertex_velocities(level_set_, polygoniser_, particles.velocity, mesh_);
+  if (particles.velocity.empty()) return mesh_;
+  const auto velocity = splits ? sub_sources_.of_sources(particles.velocity) : particles.velocity;
+  find_vertex_velocities(level_set_, polygoniser_, velocity, mesh_);
   return mesh_;
 }
 
 std::size_t SurfaceMaker::bytes() const {
   return sources_.capacity() * sizeof(Vec3) + shapes_.capacity() * sizeof(SourceShape) + shape_finder_.bytes() +
-         level_set_.bytes() + polygoniser_.bytes() + smoother_.bytes() + mesh_.position.capacity() * 2 * sizeof(Vec3) +
-         mesh_.triangles.capacity() * 12;
+         sub_sources_.bytes() + level_set_.bytes() + polygoniser_.bytes() + smoother_.bytes() +
+         mesh_.position.capacity() * 2 * sizeof(Vec3) + mesh_.triangles.capacity() * 12;
 }
 
 }  // namespace curlew

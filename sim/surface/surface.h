@@ -13,6 +13,7 @@
 #include "sim/surface/level_set.h"
 #include "sim/surface/polygonise.h"
 #include "sim/surface/smoothing.h"
+#include "sim/surface/sub_sources.h"
 
 namespace curlew {
 
@@ -21,6 +22,10 @@ struct SurfaceParticles {
   std::span<const Vec3> position;       // m
   std::span<const float> density;       // kg/m^3, boundaries included; empty: particles count as deep in the water
   std::span<const Vec3> velocity = {};  // m/s; where given, the vertices get theirs
+  // Where given, particles that have split are shown by their vortex sub-particles.
+  std::span<const Vec3> sub_particles = {};  // the field
+  std::span<const std::uint32_t> id = {};
+  double time = 0;  // s
 };
 
 class SurfaceMaker {
@@ -39,7 +44,10 @@ class SurfaceMaker {
   std::size_t bytes() const;
 
  private:
+  void make_sources(const SurfaceParticles& particles, const Scene& scene);
+
   std::vector<Vec3> sources_;
+  SubSources sub_sources_;  // empty without sub-particles
   std::vector<SourceShape> shapes_;
   ShapeFinder shape_finder_;  // empty unless surface.anisotropic
   LevelSet level_set_;

@@ -91,6 +91,31 @@ std::span<const Vec3> place_sub_particles(std::uint32_t particle, int level, Vec
   return {places.data(), std::size_t{1} << level};
 }
 
+SplitParticles split_particles(const SubParticleState& state) {
+  const std::size_t n = state.position.size();
+  const auto level_of = [&](std::size_t i) {
+    return static_cast<int>(std::lround(sub_particle_level_of(state.sub_particles[i])));
+  };
+  std::vector<std::size_t> first(n + 1);
+  for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + (std::size_t{1} << level_of(i));
+  SplitParticles split;
+  split.position.resize(first[n]);
+  split.share.resize(first[n]);
+  split.parent.resize(first[n]);
+  parallel_for(n, [&](std::size_t i) {
+    std::array<Vec3, most_sub_particles> places;
+    const int level = level_of(i);
+    const auto parts =
+        place_sub_particles(state.id[i], level, state.sub_particles[i], state.time, state.radius, places);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      split.position[first[i] + k] = state.position[i] + parts[k];
+      split.share[first[i] + k] = static_cast<float>(sub_particle_share(level));
+      split.parent[first[i] + k] = static_cast<std::uint32_t>(i);
+    }
+  });
+  return split;
+}
+
 void advance_sub_particles(World& world) {
   Fields& f = world.fields;
   const SubParticleParameters& p = world.parameters().sub_particles;

@@ -132,7 +132,9 @@ TEST_CASE("a checkpoint goes on to the same bits, in place and elsewhere, with o
   refined.insert(refined.find("--steps"), "--set vorticity_refinement.alpha=1 --set micropolar.nu_t=0.2 ");
   summed.insert(summed.find("--steps"),
                 "--set vorticity_refinement.alpha=1 --set vorticity_refinement.reconstruction=sum ");
-  for (const std::string& scene : {dam_break, taylor_green, with_models, refined, summed}) {
+  std::string wavelets = dam_break;
+  wavelets.insert(wavelets.find("--steps"), "--set wavelet.amplitude=0.05 --set sub_particles.levels=3 ");
+  for (const std::string& scene : {dam_break, taylor_green, with_models, refined, summed, wavelets}) {
     INFO(scene);
     const Table whole = run_in(folder.path(), scene + " --checkpoint-every 0.1 --threads 2 --overwrite", "whole");
     fs::remove_all(folder / "part");

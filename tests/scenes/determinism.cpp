@@ -23,6 +23,8 @@ Scene dam_with_everything(int dimension) {
   scene.parameters.vorticity_confinement.epsilon = 0.02;
   scene.parameters.micropolar.nu_t = 0.05;
   scene.parameters.vorticity_refinement.alpha = 1;
+  scene.parameters.wavelet.amplitude = 0.02;
+  scene.parameters.sub_particles.levels = 3;
   return scene;
 }
 
@@ -63,12 +65,15 @@ TEST_CASE("each turbulence model alone gives the same state on one thread and on
   for (const auto& [key, value] : {std::pair("vorticity_refinement.alpha", "1"),
                                    {"vorticity_refinement.alpha", "0"},
                                    {"micropolar.nu_t", "0.1"},
-                                   {"vorticity_confinement.epsilon", "0.1"}}) {
+                                   {"vorticity_confinement.epsilon", "0.1"},
+                                   {"wavelet.amplitude", "0.05"},
+                                   {"sub_particles.levels", "2"}}) {
     for (const char* second :
          {"vorticity_refinement.reconstruction=sum", "micropolar.curls=symmetric", "micropolar.curls=conjugate"}) {
       Scene scene = dam_with_everything(dimension);
       scene.parameters.vorticity_confinement.epsilon = scene.parameters.micropolar.nu_t =
-          scene.parameters.vorticity_refinement.alpha = 0;
+          scene.parameters.vorticity_refinement.alpha = scene.parameters.wavelet.amplitude = 0;
+      scene.parameters.sub_particles.levels = 0;
       set_parameter(scene.parameters, parameter_row(key), value, "");
       const std::string choice = second;
       set_parameter(scene.parameters, parameter_row(choice.substr(0, choice.find('='))),

@@ -101,6 +101,9 @@ TEST_CASE("what is off costs no byte and no sweep", "[plan]") {
   zeroed.parameters.vorticity_confinement.epsilon = 0;
   zeroed.parameters.vorticity_refinement.alpha = 0;
   zeroed.parameters.micropolar.nu_t = 0;
+  zeroed.parameters.wavelet.amplitude = 0;
+  zeroed.parameters.sub_particles.levels = 0;
+  zeroed.parameters.wavelet.tile = 128;
   // What a model that is off would do must not matter either.
   zeroed.parameters.vorticity_refinement.reconstruction = VorticityRefinementParameters::reconstruction_t::poisson;
   zeroed.parameters.micropolar.curls = MicropolarParameters::curls_t::conjugate;

@@ -184,7 +184,7 @@ TEST_CASE("a source with a matrix of its own is an ellipsoid, turned as the matr
   const double q = std::sqrt(1 - std::cbrt(0.5)), volume = 4.0 / 3 * std::numbers::pi * q * q * q * a * b * c;
   const auto mesh_of = [&](const std::vector<Vec3>& places) {
     LevelSet level_set;
-    level_set.build({places, {shapes.data(), places.size()}, 0.04}, scene.domain, 0.05, 0.5);
+    level_set.build({places, {shapes.data(), places.size()}, {}, 0.04}, scene.domain, 0.05, 0.5);
     SurfaceMesh mesh;
     Polygoniser().run(level_set, Polygoniser::Normals::gradient, mesh);
     return mesh;
@@ -220,7 +220,7 @@ TEST_CASE("what is deep in the water is not summed, and the surface is the same"
   const SourceShape shape = round_shape(2 * scene.spacing());
   const auto build = [&](double spacing, std::size_t& full) {
     LevelSet level_set;
-    level_set.build({particles, {&shape, 1}, spacing}, scene.domain, scene.particle_radius, 0.5);
+    level_set.build({particles, {&shape, 1}, {}, spacing}, scene.domain, scene.particle_radius, 0.5);
     full = 0;
     for (const LevelSet::Brick& brick : level_set.bricks()) full += brick.full ? 1 : 0;
     SurfaceMesh mesh;
