@@ -1,4 +1,5 @@
-// `curlew bench energy` and `curlew bench overhead`, at sizes that take seconds.
+// `curlew bench energy`, `overhead` and `turbulence`, at sizes that take seconds.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
@@ -132,5 +133,43 @@ TEST_CASE("the overhead bench compares each method with plain DFSPH") {
                             " | 7 | vorticity_refinement ", ", vorticity_confinement ", ", vorticity "}) {
     INFO(words);
     CHECK(outcome.out.find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE("the turbulence bench leaves a spectrum a method and time, a table and a plot") {
+  const TemporaryFolder folder;
+  const Outcome outcome = in(folder, "bench turbulence --cases 16 --share 0.05 --methods dfsph wt0.02 --out t");
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.out.starts_with("Decaying turbulence, cube of 1 m, 16^3 particles, turnover time 0.29 s, "));
+  std::vector<std::string> files{"t", "t/turbulence.csv", "t/turbulence.svg", "t/turbulence_noise.csv",
+                                 "t/turbulence_start_0.000s.csv"};
+  for (const char* method : {"dfsph", "wt0.02"}) {
+    for (const char* time : {"0.007", "0.015", "0.029"})
+      files.push_back("t/turbulence_" + std::string(method) + "_" + time + "s.csv");
+  }
+  std::sort(files.begin(), files.end());
+  CHECK(folder.contents() == files);
+
+  const Table table = read_table(folder / "t/turbulence.csv");
+  REQUIRE(table.rows.size() == 8);
+  CHECK(table.cell(0, "method") == "start");
+  CHECK(table.cell(1, "method") == "DFSPH");
+  CHECK(table.cell(4, "method") == "WT 0.02");
+  CHECK(table.cell(7, "method") == "wavelet noise y");
+  for (std::size_t row = 0; row < 7; ++row) {
+    CHECK(table.number(row, "energy, J/kg") == Approx(1.5).epsilon(0.01));
+    CHECK(table.number(row, "slope") == Approx(-5.0 / 3).margin(0.5));
+  }
+  // Octaves with energies as 2^(-5/3) each spread over twice the wave numbers of the one before.
+  CHECK(table.number(7, "slope") == Approx(-8.0 / 3).margin(0.1));
+
+  // The start on the grid is the field's own spectrum, in a cube of 1 m.
+  const Table start = read_table(folder / "t/turbulence_start_0.000s.csv");
+  CHECK(start.number(0, "k (1/m)") == Approx(2 * 3.14159265).epsilon(1e-5));
+  CHECK(start.number(1, "E k^(5/3) (m^(4/3)/s^2)") / start.number(0, "E k^(5/3) (m^(4/3)/s^2)") ==
+        Approx(1).epsilon(0.02));
+  const std::string plot = file_text(folder / "t/turbulence.svg");
+  for (const char* words : {">DFSPH</text>", ">WT 0.02</text>", ">k^(-5/3)</text>", ">E (m³/s²)</text>"}) {
+    CHECK(plot.find(words) != std::string::npos);
   }
 }

@@ -27,11 +27,13 @@ constexpr Excess excesses[] = {
      }},
     {"micropolar", [](Parameters& p) { p.micropolar.nu_t = 1; }},
     {"confinement", [](Parameters& p) { p.vorticity_confinement.epsilon = 2; }},
+    {"wavelets", [](Parameters& p) { p.wavelet.amplitude = 0.5; }},
     {"all",
      [](Parameters& p) {
        p.vorticity_refinement.alpha = 2;
        p.micropolar.nu_t = 1;
        p.vorticity_confinement.epsilon = 2;
+       p.wavelet.amplitude = 0.5;
      }},
 };
 
