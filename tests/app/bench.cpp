@@ -157,7 +157,7 @@ TEST_CASE("the turbulence bench leaves a spectrum a method and time, a table and
   CHECK(table.cell(4, "method") == "WT 0.02");
   CHECK(table.cell(7, "method") == "wavelet noise y");
   for (std::size_t row = 0; row < 7; ++row) {
-    CHECK(table.number(row, "energy, J/kg") == Approx(1.5).epsilon(0.01));
+    CHECK(table.number(row, "energy (J/kg)") == Approx(1.5).epsilon(0.01));
     CHECK(table.number(row, "slope") == Approx(-5.0 / 3).margin(0.5));
   }
   // Octaves with energies as 2^(-5/3) each spread over twice the wave numbers of the one before.

@@ -27,7 +27,6 @@ constexpr Excess excesses[] = {
      }},
     {"micropolar", [](Parameters& p) { p.micropolar.nu_t = 1; }},
     {"confinement", [](Parameters& p) { p.vorticity_confinement.epsilon = 2; }},
-    {"wavelets", [](Parameters& p) { p.wavelet.amplitude = 0.5; }},
     {"all",
      [](Parameters& p) {
        p.vorticity_refinement.alpha = 2;
