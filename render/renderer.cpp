@@ -213,7 +213,7 @@ void Renderer::render(const Frame& frame, const ViewSettings& settings, Detail d
     s.upload_particles(frame, size, light, draft && !flat && covering && !clear);
     s.particles.set_colours(look.colour_map, theme.water, range, coloured);
   }
-  s.solids.upload(frame.geometry);
+  s.solids.upload(frame.geometry, frame.body_offset);
   s.shading->begin_shadow();
   if (!flat) s.draw_shadow(light, radius, settings.show_bodies, !clear);
   if (clear) s.draw_water_light(light, water, geometry.domain);

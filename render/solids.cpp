@@ -1,5 +1,6 @@
 #include "render/solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,24 @@ std::vector<MeshVertex> drawn_triangles(const TriangleMesh& mesh) {
   return out;
 }
 
+namespace {
+
+std::vector<MeshVertex> moved(std::vector<MeshVertex> vertices, std::span<const std::size_t> ends,
+                              std::span<const Vec3d> offsets) {
+  std::size_t k = 0;
+  for (std::size_t body = 0; body < ends.size(); ++body) {
+    const Vec3 by = to_float(offsets[body]);
+    for (; k < ends[body]; ++k) {
+      vertices[k].x += by.x;
+      vertices[k].y += by.y;
+      vertices[k].z += by.z;
+    }
+  }
+  return vertices;
+}
+
+}  // namespace
+
 SolidLayer::SolidLayer()
     : mesh_program_(gl::link_program("mesh.vert", "mesh.frag")),
       floor_program_(gl::link_program("floor.vert", "floor.frag")),
@@ -46,16 +65,27 @@ SolidLayer::SolidLayer()
   }
 }
 
-void SolidLayer::upload(const std::shared_ptr<const FrameGeometry>& geometry) {
-  if (geometry == geometry_) return;
-  std::vector<MeshVertex> all;
-  for (const FrameBody& body : geometry->bodies) {
-    const auto part = drawn_triangles(body.surface);
-    all.insert(all.end(), part.begin(), part.end());
+void SolidLayer::upload(const std::shared_ptr<const FrameGeometry>& geometry, std::span<const Vec3d> offsets) {
+  const bool same_place = std::equal(offsets.begin(), offsets.end(), offsets_.begin(), offsets_.end());
+  if (geometry == geometry_ && same_place) return;
+  if (geometry != geometry_) {
+    unmoved_.clear();
+    ends_.clear();
+    for (const FrameBody& body : geometry->bodies) {
+      const auto part = drawn_triangles(body.surface);
+      unmoved_.insert(unmoved_.end(), part.begin(), part.end());
+      ends_.push_back(unmoved_.size());
+    }
+    geometry_ = geometry;
   }
-  count_ = all.size();
-  vertices_.upload(std::span<const MeshVertex>(all));
-  geometry_ = geometry;
+  count_ = unmoved_.size();
+  offsets_.assign(offsets.begin(), offsets.end());
+  if (offsets.empty()) {
+    vertices_.upload(std::span<const MeshVertex>(unmoved_));
+    unmoved_ = std::vector<MeshVertex>();
+    return;
+  }
+  vertices_.upload(std::span<const MeshVertex>(moved(unmoved_, ends_, offsets)));
 }
 
 void SolidLayer::draw_bodies() {

@@ -1,7 +1,8 @@
-// What stands still: bodies and the floor.
+// Solids: bodies and the floor.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/gl.h"
@@ -23,8 +24,9 @@ class SolidLayer {
  public:
   SolidLayer();
 
-  // Uploads the bodies unless this very geometry is already there.
-  void upload(const std::shared_ptr<const FrameGeometry>& geometry);
+  // Uploads the bodies unless this very geometry is already there, each moved by its offset (m); no offsets: none
+  // moves.
+  void upload(const std::shared_ptr<const FrameGeometry>& geometry, std::span<const Vec3d> offsets);
 
   void draw_bodies();
   void draw_floor();
@@ -35,6 +37,9 @@ class SolidLayer {
   gl::VertexArray triangles_, nothing_;
   gl::Buffer vertices_;
   std::size_t count_ = 0;
+  std::vector<MeshVertex> unmoved_;  // where the geometry has the bodies; kept only where they move
+  std::vector<std::size_t> ends_;    // of the bodies in it
+  std::vector<Vec3d> offsets_;
   std::shared_ptr<const FrameGeometry> geometry_;  // kept, so that no other can take its address
 };
 

@@ -39,6 +39,8 @@ namespace curlew {
   FIELD(boundary_friction, Vec3, "m/s^3", scratch,                                                                    \
         "Viscous pull of no-slip boundaries for nu = 1: xyz - w v is the acceleration, w in 1/m^2.")                  \
   FIELD(no_slip_gradient, Vec3, "kg/m^4", scratch, "The share of no-slip bodies in boundary_gradient.")               \
+  FIELD(body_motion, Vec3, "kg/(m^3 s)", scratch,                                                                     \
+        "What moving bodies take off the rate of change of density (w) and, no-slip ones, off the curl (xyz).")       \
   FIELD(acceleration, Vec3, "m/s^2", scratch, "What the forces, or a pressure iterate, do to the velocity.")          \
   FIELD(correction_diagonal, Vec3, "1", scratch, "xx, yy, zz of the kernel-gradient correction, see density.h.")      \
   FIELD(correction_mixed, Vec3, "1", scratch, "yz, zx, xy of the kernel-gradient correction.")                        \

@@ -112,7 +112,8 @@ std::shared_ptr<const FrameGeometry> make_geometry(const Scene& scene) {
   geometry->particle_radius = scene.particle_radius;
   geometry->domain = scene.domain;
   for (const Body& body : scene.bodies) {
-    geometry->bodies.push_back({body.name, surface_mesh(body.shape, scene.dimension, scene.domain)});
+    geometry->bodies.push_back(
+        {body.name, surface_mesh(body.shape, scene.dimension, domain_around(body, scene.domain))});
   }
   return geometry;
 }
@@ -142,6 +143,7 @@ Frame make_frame(const World& world, std::string_view colour_name, std::shared_p
   frame.position.assign(world.fields.position.begin(), world.fields.position.end());
   frame.colour = source.field;
   frame.geometry = std::move(geometry);
+  for (const BodyPlace& place : body_places(world.scene.bodies, world.time)) frame.body_offset.push_back(place.offset);
   if (source.value != nullptr) {
     frame.value.resize(world.count);
     parallel_for(world.count, [&](std::size_t i) { frame.value[i] = source.value(world, i); });
@@ -182,7 +184,7 @@ std::shared_ptr<const SurfaceMesh> make_surface(const World& world, SurfaceMaker
 }
 
 Frame cut_open(const Frame& frame, const Cut& cut) {
-  Frame rest{frame.time, frame.step, {}, {}, {}, frame.colour, frame.geometry, nullptr};
+  Frame rest{frame.time, frame.step, {}, {}, {}, frame.colour, frame.geometry, frame.body_offset, nullptr};
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     if (!keeps(cut, frame.position[i])) continue;
     rest.position.push_back(frame.position[i]);

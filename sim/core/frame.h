@@ -31,7 +31,7 @@ std::span<const ColourField> colour_fields();
 // A body as it is drawn.
 struct FrameBody {
   std::string name;
-  TriangleMesh surface;  // in world coordinates
+  TriangleMesh surface;  // in world coordinates, where the scene has the body
 };
 
 // What does not change while a run goes on.
@@ -50,6 +50,7 @@ struct Frame {
   std::vector<float> value;    // of the colour field, one a particle; empty for plain water colour
   ColourField colour;
   std::shared_ptr<const FrameGeometry> geometry;
+  std::vector<Vec3d> body_offset;              // m, of the geometry's bodies at this moment; empty where none moves
   std::shared_ptr<const SurfaceMesh> surface;  // of the water, where it is shown as water
 };
 

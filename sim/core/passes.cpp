@@ -7,6 +7,7 @@
 #include "sim/core/watch.h"
 #include "sim/sph/density.h"
 #include "sim/sph/motion.h"
+#include "sim/sph/moving_bodies.h"
 #include "sim/sph/pressure.h"
 #include "sim/sph/projection.h"
 #include "sim/turbulence/energy_guard.h"
@@ -23,6 +24,7 @@ using enum FieldId;
 
 bool always(const World&) { return true; }
 bool has_boundary(const World& w) { return w.has_boundary(); }
+bool has_moving_body(const World& w) { return w.bodies.any_moving(); }
 bool solves_divergence(const World& w) { return w.parameters().pressure.max_divergence_iterations > 0; }
 bool is_filled(const World& w) { return w.parameters().pressure.two_sided; }
 bool shifts_particles(const World& w) { return is_filled(w) && w.parameters().pressure.shifting > 0; }
@@ -59,7 +61,8 @@ constexpr FieldSet boundary_fields{boundary_gradient, boundary_friction, no_slip
 constexpr FieldSet solver_space{packed, acceleration, source, iterate};
 constexpr FieldSet filled_fields{displacement, correction_diagonal, correction_mixed, corrected_diagonal};
 constexpr FieldSet solver_input =
-    FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient} | solver_space | filled_fields;
+    FieldSet{position, velocity, density, diagonal, neighbour_number, boundary_gradient, body_motion} | solver_space |
+    filled_fields;
 
 constexpr Pass passes[] = {
     {.name = "energy_watch",
@@ -106,7 +109,8 @@ constexpr Pass passes[] = {
      .wanted = adds_wavelets,
      .run = add_wavelet_turbulence},
     {.name = "micropolar",
-     .reads = {position, velocity, density, acceleration, model_acceleration, microrotation, no_slip_gradient},
+     .reads = {position, velocity, density, acceleration, model_acceleration, microrotation, no_slip_gradient,
+               body_motion},
      .writes = {acceleration, model_acceleration, microrotation, packed},
      .wanted = is_micropolar,
      .run = couple_spin_and_flow},
@@ -139,6 +143,11 @@ constexpr Pass passes[] = {
      .wanted = conserves_energy,
      .run = midpoint_velocity,
      .changes_velocity = true},
+    {.name = "body_course",
+     .reads = {position, body_motion},
+     .writes = {body_motion},
+     .wanted = has_moving_body,
+     .run = sum_body_course},
     // Constant density at the positions to come:
     {.name = "density_solve",
      .reads = solver_input | FieldSet{density_stiffness},
@@ -151,6 +160,12 @@ constexpr Pass passes[] = {
      .writes = {position, velocity, acceleration, packed, microrotation},
      .wanted = shifts_particles,
      .run = shift_particles},
+    {.name = "move_bodies",
+     .reads = {},
+     .writes = {},
+     .wanted = has_moving_body,
+     .run = move_bodies,
+     .essential = true},
     {.name = "advect",
      .reads = {position, velocity, displacement},
      .writes = {position, velocity},
@@ -186,6 +201,11 @@ constexpr Pass passes[] = {
      .writes = boundary_fields | FieldSet{neighbour_number},
      .wanted = has_boundary,
      .run = boundary_sums},
+    {.name = "body_motion",
+     .reads = {position, boundary_friction},
+     .writes = {body_motion, boundary_friction},
+     .wanted = has_moving_body,
+     .run = sum_body_motion},
     {.name = "density",
      .reads = {position, boundary_gradient, neighbour_number},
      .writes = {density, diagonal, neighbour_number},
@@ -209,7 +229,7 @@ constexpr Pass passes[] = {
      .wanted = always,
      .run = total_pressure},
     {.name = "vorticity",
-     .reads = {position, velocity, density, no_slip_gradient},
+     .reads = {position, velocity, density, no_slip_gradient, body_motion},
      .writes = {vorticity},
      .wanted = always,
      .run = compute_vorticity},
@@ -230,7 +250,8 @@ constexpr Pass passes[] = {
 bool advances(const Pass& pass) {
   return pass.changes_velocity || pass.writes.meets(FieldSet{acceleration} | FieldSet::of(FieldKind::model)) ||
          pass.name == "time_step" || pass.name == "wavelet_drift" || pass.name == "advect" ||
-         pass.name == "energy_account" || pass.name == "energy_watch";
+         pass.name == "body_course" || pass.name == "move_bodies" || pass.name == "energy_account" ||
+         pass.name == "energy_watch";
 }
 
 // Fields that a pass touches but that this world has no use for.
@@ -239,6 +260,7 @@ FieldSet unused_fields(const World& world, FieldSet demanded) {
   if (!is_filled(world)) unused = unused | filled_fields;
   if (!conserves_energy(world)) unused = unused | FieldSet{pressure_acceleration, corrected_diagonal};
   if (!world.has_boundary()) unused = unused | boundary_fields;
+  if (!has_moving_body(world)) unused = unused | FieldSet{body_motion};
   if (solves_poisson(world)) unused = unused | FieldSet{stream_function};
   if (!guards_energy(world) || !refines_vorticity(world)) unused = unused | FieldSet{model_velocity};
   if (!guards_energy(world) || !(confines_vorticity(world) || is_micropolar(world) || adds_wavelets(world))) {
@@ -348,6 +370,7 @@ void allocate(World& world, const Plan& plan) {
 
 void prepare(World& world, const Plan& plan) {
   allocate(world, plan);
+  place_bodies(world, world.time);
   run_passes(world, plan.prepare, nullptr);
   remember_start(world);
   if (world.dt <= 0) world.dt = initial_time_step(world);
@@ -362,6 +385,7 @@ void step(World& world, const Plan& plan, PassObserver* observer) {
   } catch (const DivergedError&) {
     restore_backup(world);
     world.dt = last_dt;
+    place_bodies(world, world.time);
     throw;
   }
   world.time += world.dt;

@@ -7,6 +7,7 @@
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
 #include "sim/measure/diagnostics.h"
+#include "sim/sph/moving_bodies.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 
 namespace curlew {
@@ -38,7 +39,8 @@ bool has_free_model(const World& world) {
 }
 
 bool is_driven(const World& world) {
-  return has_torque(world) || has_free_model(world) || falls_for_ever(world.scene) || wall_speed(world.scene) > 0;
+  return has_torque(world) || has_free_model(world) || falls_for_ever(world.scene) || wall_speed(world.scene) > 0 ||
+         bodies_move(world.scene, world.time - world.dt, world.time);  // in the step that the energy is of
 }
 
 Largest fastest(const World& world) {
@@ -55,7 +57,7 @@ double natural_speed(const World& world) {
   for (int axis = 0; axis < world.scene.dimension; ++axis) {
     fall += std::abs(world.scene.gravity[axis]) * (world.scene.domain.max[axis] - world.scene.domain.min[axis]);
   }
-  return world.start.speed + wall_speed(world.scene) + std::sqrt(2 * fall);
+  return world.start.speed + wall_speed(world.scene) + body_speed(world.scene) + std::sqrt(2 * fall);
 }
 
 std::string text(const char* format, double a, double b = 0, double c = 0) {

@@ -20,6 +20,7 @@ World make_empty_world(const Scene& scene, std::uint64_t seed) {
   world.walls = Walls(scene.domain, scene.dimension, world.kernel, d, mass);
   world.bodies = BodySamples(scene, world.cells, world.kernel);
   world.obstacles = std::make_shared<const Obstacles>(scene);
+  world.body_places = body_places(scene.bodies, 0);
   return world;
 }
 

@@ -76,6 +76,7 @@ struct World {
   Walls walls;
   BodySamples bodies;
   std::shared_ptr<const Obstacles> obstacles;  // never null
+  std::vector<BodyPlace> body_places;          // now, for each body of the scene; empty where none moves
 
   std::size_t count = 0;  // particles
   Fields fields;

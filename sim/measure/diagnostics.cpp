@@ -94,7 +94,7 @@ std::int64_t count_outside(const World& world) {
   };
   return static_cast<std::int64_t>(particle_sum(world.count, [&](std::size_t i) {
     const Vec3 x = world.fields.position[i];
-    return beyond_wall(x) || world.obstacles->contains(x) ? 1.0 : 0.0;
+    return beyond_wall(x) || world.obstacles->contains(x, world.body_places) ? 1.0 : 0.0;
   }));
 }
 

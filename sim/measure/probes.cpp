@@ -63,7 +63,7 @@ class Column {
       collected_ = true;
     }
     const double rest = double{world_.rest_density()};
-    if (fluid_.size == 0 || world_.obstacles->contains(here)) return -rest / 2;
+    if (fluid_.size == 0 || world_.obstacles->contains(here, world_.body_places)) return -rest / 2;
     WallSum bodies;
     if (body_.size > 0) world_.bodies.add(bodies, here, body_, world_.kernel, world_.rest_density());
     return mirrored_density(world_, point, fluid_) - (rest - double{bodies.gradient.w}) / 2;

@@ -121,18 +121,54 @@ std::vector<Fluid> read_fluid(const JsonPlace& place, int dimension) {
   return fluids;
 }
 
+KeyframePath read_motion(const JsonPlace& place, int dimension) {
+  const std::string what = "an array of at least one keyframe";
+  std::vector<Keyframe> keyframes;
+  for (const JsonPlace& item : place.array(what)) {
+    item.allow({"time", "at"});
+    const Keyframe keyframe{item.at("time").number(-largest, largest), item.at("at").vector(dimension)};
+    if (!keyframes.empty() && !(keyframe.time > keyframes.back().time)) {
+      item.at("time").expected("a time after the " + plain_number(keyframes.back().time) +
+                               " s of the keyframe before it");
+    }
+    keyframes.push_back(keyframe);
+  }
+  if (keyframes.empty()) place.expected(what);
+  return KeyframePath(std::move(keyframes));
+}
+
+// Bodies are not wrapped around periodic axes, so what moves along one has to stay between its faces.
+void check_periodic_motion(const JsonPlace& place, const Body& body, const Scene& scene) {
+  const Vec3d least = body.motion.least(), most = body.motion.most();
+  constexpr double far = 1e9;
+  const Domain everywhere{{-far, -far, -far}, {far, far, far}, {}, {}};
+  const Box box = bounds(body.shape, scene.dimension, everywhere);
+  for (int axis = 0; axis < scene.dimension; ++axis) {
+    if (!scene.domain.periodic[static_cast<std::size_t>(axis)] || least[axis] == most[axis]) continue;
+    if (box.min[axis] + least[axis] > scene.domain.min[axis] && box.max[axis] + most[axis] < scene.domain.max[axis])
+      continue;
+    place.fail("moves the body through a face of the periodic axis " + std::string(1, "xyz"[axis]) +
+               ", expected a path that stays between them");
+  }
+}
+
 std::vector<Body> read_bodies(const JsonPlace& place, const Scene& scene) {
   std::vector<Body> bodies;
   std::set<std::string> names;
   for (const JsonPlace& item : place.array("an array of bodies")) {
-    Body body{"body " + std::to_string(bodies.size() + 1), read_shape(item, {"name", "wall"}, scene.dimension), {}};
+    Body body{
+        "body " + std::to_string(bodies.size() + 1), read_shape(item, {"name", "wall", "motion"}, scene.dimension), {}};
     const auto name = item.find("name"), wall = item.find("wall");
     if (name) body.name = name->text();
     if (!names.insert(body.name).second) {
       item.fail("has the name " + in_quotes(body.name) + " of a body before it, expected a name of its own");
     }
     if (wall) body.kind = static_cast<WallKind>(wall->one_of(wall_kind_names().first(2)));
-    const Box box = bounds(body.shape, scene.dimension, scene.domain);
+    if (const auto motion = item.find("motion")) {
+      body.motion = read_motion(*motion, scene.dimension);
+      check_periodic_motion(*motion, body, scene);
+    }
+    const Box box = bounds(body.shape, scene.dimension, domain_around(body, scene.domain));
     for (int axis = 0; axis < scene.dimension; ++axis) {
       if (box.max[axis] < box.min[axis]) item.fail("lies outside the domain, expected a body that reaches into it");
     }

@@ -121,7 +121,9 @@ double estimate_particles(const Scene& scene) {
 
 double estimate_memory(const Scene& scene) {
   double area = 0;
-  for (const Body& body : scene.bodies) area += surface_area(body.shape, scene.dimension, scene.domain);
+  for (const Body& body : scene.bodies) {
+    area += surface_area(body.shape, scene.dimension, domain_around(body, scene.domain));
+  }
   return bytes_a_particle * estimate_particles(scene) +
          bytes_a_sample * area / std::pow(scene.spacing(), scene.dimension - 1);
 }

@@ -50,7 +50,9 @@ std::array<LatticeAxis, 3> lattice_of(const Shape& shape, const Scene& scene) {
 class FreeSpace {
  public:
   explicit FreeSpace(const Scene& scene) : scene_(scene) {
-    for (const Body& body : scene.bodies) bodies_.emplace_back(body.shape, scene.dimension);
+    for (const Body& body : scene.bodies) {
+      bodies_.push_back({ShapeProbe(body.shape, scene.dimension), body.motion.at(0).offset});
+    }
   }
 
   bool holds(Vec3d p) const {
@@ -61,15 +63,19 @@ class FreeSpace {
       if (p[axis] < scene_.domain.min[axis] + margin - slack) return false;
       if (p[axis] > scene_.domain.max[axis] - margin + (periodic ? -slack : slack)) return false;
     }
-    for (const ShapeProbe& body : bodies_) {
-      if (body.distance(p, 2 * r) < r * (1 - tolerance)) return false;
+    for (const PlacedBody& body : bodies_) {
+      if (body.probe.distance(p - body.offset, 2 * r) < r * (1 - tolerance)) return false;
     }
     return true;
   }
 
  private:
+  struct PlacedBody {
+    ShapeProbe probe;
+    Vec3d offset;  // at the start
+  };
   const Scene& scene_;
-  std::vector<ShapeProbe> bodies_;
+  std::vector<PlacedBody> bodies_;
 };
 
 // Calls visit(point) for every lattice point of the fluid that free space holds; a visitor that answers false says that

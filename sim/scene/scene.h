@@ -11,6 +11,7 @@
 
 #include "sim/core/params.h"
 #include "sim/core/vec.h"
+#include "sim/scene/keyframes.h"
 
 namespace curlew {
 
@@ -91,7 +92,11 @@ struct Body {
   std::string name;
   Shape shape;
   WallKind kind = WallKind::slip;  // slip or no_slip
+  KeyframePath motion{};           // where the shape stands over time; at rest where it is empty
 };
+
+// Where all bodies are at a time, in the scene's order; nothing where none ever moves.
+std::vector<BodyPlace> body_places(const std::vector<Body>& bodies, double time);
 
 // What is measured at a point or along a line, into probes.csv.
 struct Probe {

@@ -221,6 +221,16 @@ JsonNode look_node() {
        {"show_floor", typed("boolean")}});
 }
 
+JsonNode motion_node() {
+  JsonNode time = typed("number", "s; later than that of the keyframe before.");
+  return array_of(object_of("Where the body is at a time.",
+                            {{"time", std::move(time), true},
+                             {"at", reference("vector", "m, from where the shape stands in the scene."), true}}),
+                  1, 0,
+                  "Keyframes of a body that moves, without turning: its velocity is continuous, and zero at the first "
+                  "and the last.");
+}
+
 JsonNode probe_place(const std::string& doc, const char* vector) {
   JsonNode points = typed("integer");
   points.add("minimum", number(2)).add("maximum", number(10000));
@@ -281,9 +291,10 @@ std::string scene_schema() {
                          {"jitter", number_node("Random start, at most so many spacings off the lattice, 0 to 0.3.")}}),
             1, 0, "What is fluid at the start."),
         true},
-       {"bodies",
-        array_of(with_shapes("A solid at rest.", {{"name", typed("string")}, {"wall", one_of_names(body_walls)}}), 0, 0,
-                 "Solids in the way of the fluid.")},
+       {"bodies", array_of(with_shapes("A solid, at rest where it has no motion.", {{"name", typed("string")},
+                                                                                    {"wall", one_of_names(body_walls)},
+                                                                                    {"motion", motion_node()}}),
+                           0, 0, "Solids in the way of the fluid.")},
        {"probes", array_of(probe_node(), 0, 0, "What is measured into probes.csv by `curlew run`.")},
        {"parameters", parameters_node()},
        {"camera", camera_node()},

@@ -158,6 +158,13 @@ Box bounds(const Shape& shape, int dimension, const Domain& domain) {
   return box;
 }
 
+Domain domain_around(const Body& body, const Domain& domain) {
+  Domain seen = domain;
+  seen.min = domain.min - body.motion.most();
+  seen.max = domain.max - body.motion.least();
+  return seen;
+}
+
 double volume(const Shape& shape, int dimension, const Domain& domain) {
   const Box whole = whole_bounds(shape, dimension, domain), part = bounds(shape, dimension, domain);
   bool within = true;

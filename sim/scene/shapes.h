@@ -40,6 +40,10 @@ class ShapeProbe {
 // below its min: then nothing does.
 Box bounds(const Shape&, int dimension, const Domain&);
 
+// The domain as a body sees it: in the coordinates in which its shape is written, all places where the domain ever is.
+// That is the domain itself for a body at rest.
+Domain domain_around(const Body&, const Domain&);
+
 // Volume (m^3, in 2D area in m^2) of the part inside the domain: exact for boxes, and for spheres, cylinders and meshes
 // that lie wholly inside; else to about 1 % from a lattice of points.
 double volume(const Shape&, int dimension, const Domain&);

@@ -110,12 +110,24 @@ JsonNode fluid_node(const Scene& scene) {
   return node;
 }
 
+JsonNode motion_node(const KeyframePath& motion, const Scene& scene) {
+  JsonNode node = JsonNode::array();
+  for (const Keyframe& keyframe : motion.keyframes()) {
+    JsonNode item = JsonNode::object();
+    item.add("time", JsonNode::of(keyframe.time)).add("at", vector_node(keyframe.at, scene.dimension));
+    node.add(std::move(item));
+  }
+  return node;
+}
+
 JsonNode bodies_node(const Scene& scene) {
   JsonNode node = JsonNode::array();
   for (const Body& body : scene.bodies) {
     JsonNode item = JsonNode::object();
     item.add("name", JsonNode::of(body.name)).add(std::string(shape_name(body.shape)), shape_node(body.shape, scene));
-    node.add(std::move(item.add("wall", name_node(wall_kind_names(), static_cast<std::size_t>(body.kind)))));
+    item.add("wall", name_node(wall_kind_names(), static_cast<std::size_t>(body.kind)));
+    if (!body.motion.keyframes().empty()) item.add("motion", motion_node(body.motion, scene));
+    node.add(std::move(item));
   }
   return node;
 }

@@ -14,7 +14,12 @@ inline Vec3 body_gradient(const World& world, std::size_t i) {
   return world.fields.boundary_gradient[i] - world.walls.sum(world.fields.position[i]).gradient;
 }
 
-// D_i(v): rate of change of density, kg/(m^3 s).
+// What the motion of bodies takes off D_i below, v the velocity of the fluid: sum rho_0 V_b v_b . grad W_ib.
+inline float body_rate(const World& world, std::size_t i) {
+  return world.fields.body_motion.empty() ? 0.0f : world.fields.body_motion[i].w;
+}
+
+// D_i(v): rate of change of density, kg/(m^3 s), beside bodies at rest.
 template <class Images>
 float density_rate(const World& world, const Array<Vec3>& v, std::size_t i, const Images& images, bool boundary) {
   const Vec3 own = v[i];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/parallel.h"
+#include "sim/sph/moving_bodies.h"
 #include "sim/sph/velocity_gradient.h"
 #include "sim/turbulence/micropolar_bender2018.h"
 
@@ -24,6 +25,12 @@ double allowed_step(const World& world, double max_speed, double max_acceleratio
   const bool rate = m.xsph_form == MicropolarParameters::xsph_form_t::rate;
   if (rate && m.gamma > 0) dt = std::min(dt, 0.5 * m.xsph_reference_step / m.gamma);  // smooths by a half at most
   return std::min(dt, micropolar_step_limit(world));
+}
+
+// `dt`, or less where a body is so fast on its way until then.
+double step_beside_bodies(const World& world, double dt) {
+  const double speed = body_speed(world.scene, world.time, world.time + dt);
+  return speed > 0 ? std::min(dt, world.parameters().time.cfl * world.scene.spacing() / speed) : dt;
 }
 
 double largest_length(std::size_t n, const Array<Vec3>& field) {
@@ -146,7 +153,8 @@ void viscosity(World& world) {
 double initial_time_step(const World& world) {
   const TimeParameters& t = world.parameters().time;
   if (t.fixed_step > 0) return t.fixed_step;
-  return allowed_step(world, largest_length(world.count, world.fields.velocity), length(world.scene.gravity));
+  const double speed = largest_length(world.count, world.fields.velocity);
+  return step_beside_bodies(world, allowed_step(world, speed, length(world.scene.gravity)));
 }
 
 void choose_time_step(World& world) {
@@ -154,9 +162,12 @@ void choose_time_step(World& world) {
   world.report.max_acceleration = largest_length(world.count, world.fields.acceleration);
   const TimeParameters& t = world.parameters().time;
   const double grown = t.growth * world.dt;
-  world.dt = t.fixed_step > 0
-                 ? t.fixed_step
-                 : std::min(grown, allowed_step(world, world.report.max_speed, world.report.max_acceleration));
+  if (t.fixed_step > 0) {
+    world.dt = t.fixed_step;
+    return;
+  }
+  const double allowed = allowed_step(world, world.report.max_speed, world.report.max_acceleration);
+  world.dt = step_beside_bodies(world, std::min(grown, allowed));
 }
 
 void apply_forces(World& world) {
@@ -241,8 +252,8 @@ void advect(World& world) {
       x[axis] -= period * std::floor((x[axis] - low) / period);
     }
     const bool at_wall = world.walls.hold(x, f.velocity[i]);
-    const bool at_body = world.obstacles->hold(x, f.velocity[i], before);
-    if (at_body && world.walls.hold(x, f.velocity[i]) && world.obstacles->contains(x)) x = before;
+    const bool at_body = world.obstacles->hold(x, f.velocity[i], before, world.body_places);
+    if (at_body && world.walls.hold(x, f.velocity[i]) && world.obstacles->contains(x, world.body_places)) x = before;
     return at_body || at_wall ? 1.0 : 0.0;
   });
   world.report.wall_contacts = static_cast<std::int64_t>(held);

@@ -13,7 +13,8 @@ void gravity(World& world);
 //   vector form  2 (D+2) sum V_j (v_ij . x_ij) / (|x_ij|^2 + 0.01 h^2) grad W_ij            (Monaghan 1992; Liu Eq. 4)
 void viscosity(World& world);
 
-// dt = min( cfl d / |v|max, f sqrt(d / |a|max), f d^2 / nu, growth times the last, max_step ), or the fixed step.
+// dt = min( cfl d / |v|max, of fluid and of bodies, f sqrt(d / |a|max), f d^2 / nu, growth times the last, max_step ),
+// or the fixed step.
 void choose_time_step(World& world);
 
 // v += dt a.

@@ -7,18 +7,20 @@ namespace curlew {
 namespace {
 
 // A body that stands on the floor goes on below it here: a face in the plane of a wall is no way out for a particle
-// that is held at that plane, and none that leads anywhere. Meshes stay as they are.
+// that is held at that plane, and none that leads anywhere. Meshes stay as they are, and so do bodies that move off
+// that wall.
 struct Extension {
   const Domain& domain;
+  Vec3d range;  // m, of the body's motion
   int dimension;
   double by, slack;  // m
 
   // How far to go on below (or above) along an axis where the shape ends at `low` (or `high`).
   double below(double low, int axis) const {
-    return axis < dimension && std::abs(low - domain.min[axis]) < slack ? by : 0;
+    return axis < dimension && range[axis] == 0 && std::abs(low - domain.min[axis]) < slack ? by : 0;
   }
   double above(double high, int axis) const {
-    return axis < dimension && std::abs(high - domain.max[axis]) < slack ? by : 0;
+    return axis < dimension && range[axis] == 0 && std::abs(high - domain.max[axis]) < slack ? by : 0;
   }
 
   void operator()(Box& box) const {
@@ -85,36 +87,40 @@ struct Extension {
 }  // namespace
 
 Obstacles::Obstacles(const Scene& scene) : dimension_(scene.dimension), spacing_(scene.spacing()) {
-  const Extension extension{scene.domain, dimension_, 4 * spacing_, 1e-3 * spacing_};
+  std::vector<Domain> domains;
   for (const Body& body : scene.bodies) {
     shapes_.push_back(body.shape);
-    std::visit(extension, shapes_.back());
+    domains.push_back(domain_around(body, scene.domain));
+    const Vec3d range = body.motion.most() - body.motion.least();
+    std::visit(Extension{domains.back(), range, dimension_, 4 * spacing_, 1e-3 * spacing_}, shapes_.back());
   }
-  for (const Shape& shape : shapes_) {
-    obstacles_.push_back({bounds(shape, dimension_, scene.domain), ShapeProbe(shape, dimension_)});
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    obstacles_.push_back({bounds(shapes_[k], dimension_, domains[k]), ShapeProbe(shapes_[k], dimension_)});
   }
 }
 
-const Obstacles::Obstacle* Obstacles::around(Vec3 x) const {
-  const Vec3d p = to_double(x);
-  for (const Obstacle& obstacle : obstacles_) {
+Obstacles::Found Obstacles::around(Vec3 x, std::span<const BodyPlace> places) const {
+  for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+    const Obstacle& obstacle = obstacles_[k];
+    const BodyPlace place = places.empty() ? BodyPlace{} : places[k];
+    const Vec3d p = to_double(x) - place.offset;
     const Box& box = obstacle.bounds;
     bool near = true;
     for (int axis = 0; axis < dimension_; ++axis) near = near && p[axis] >= box.min[axis] && p[axis] <= box.max[axis];
-    if (near && obstacle.probe.inside(p)) return &obstacle;
+    if (near && obstacle.probe.inside(p)) return {&obstacle, place};
   }
-  return nullptr;
+  return {};
 }
 
-bool Obstacles::contains(Vec3 x) const { return around(x) != nullptr; }
+bool Obstacles::contains(Vec3 x, std::span<const BodyPlace> places) const { return around(x, places).body != nullptr; }
 
-bool Obstacles::hold(Vec3& x, Vec3& v, Vec3 before) const {
-  const Obstacle* body = around(x);
-  if (body == nullptr) return false;
+bool Obstacles::hold(Vec3& x, Vec3& v, Vec3 before, std::span<const BodyPlace> places) const {
+  Found found = around(x, places);
+  if (found.body == nullptr) return false;
   const double reach = 8 * spacing_, step = 0.01 * spacing_, clear = 1e-4 * spacing_;
   Vec3d p = to_double(x);
-  for (int attempt = 0; attempt < 4 && body != nullptr; ++attempt) {
-    const auto distance = [&](Vec3d q) { return body->probe.distance(q, reach); };
+  for (int attempt = 0; attempt < 4 && found.body != nullptr; ++attempt) {
+    const auto distance = [&](Vec3d q) { return found.body->probe.distance(q - found.place.offset, reach); };
     Vec3d normal;
     for (int axis = 0; axis < dimension_; ++axis) {
       Vec3d aside;
@@ -125,11 +131,11 @@ bool Obstacles::hold(Vec3& x, Vec3& v, Vec3 before) const {
     normal = (1 / length(normal)) * normal;
     p = p + (clear - distance(p)) * normal;
     const Vec3 n = to_float(normal);
-    const float into = dot(v, n);
+    const float into = dot(v - to_float(found.place.velocity), n);
     if (into < 0) v = v - into * n;
-    body = around(to_float(p));
+    found = around(to_float(p), places);
   }
-  x = body == nullptr ? to_float(p) : before;
+  x = found.body == nullptr ? to_float(p) : before;
   return true;
 }
 

@@ -256,10 +256,14 @@ void divergence_solve(World& world) {
   with_images(world.cells, [&](auto images) {
     skipped = particle_sum(world.count, [&](std::size_t i) {
       const bool spray = f.neighbour_number[i] < world.least_neighbours();
-      f.source[i] = spray ? no_part
-                          : inverse_dt * (corrected ? corrected_density_rate(world, f.velocity, i, images)
-                                                    : density_rate(world, f.velocity, i, images, boundary));
-      return spray ? 1.0 : 0.0;
+      if (spray) {
+        f.source[i] = no_part;
+        return 1.0;
+      }
+      const float rate = corrected ? corrected_density_rate(world, f.velocity, i, images)
+                                   : density_rate(world, f.velocity, i, images, boundary);
+      f.source[i] = inverse_dt * (rate - body_rate(world, i));
+      return 0.0;
     });
   });
   world.report.divergence_skipped = skipped / static_cast<double>(world.count);
@@ -284,7 +288,7 @@ double divergence_error(const World& world) {
       if (f.neighbour_number[i] < world.least_neighbours()) return 0.0;
       const float rate = corrected ? corrected_density_rate(world, f.velocity, i, images)
                                    : density_rate(world, f.velocity, i, images, boundary);
-      return std::max(0.0, double{rate});
+      return std::max(0.0, double{rate - body_rate(world, i)});
     });
   });
   return world.dt * sum / (static_cast<double>(world.count) * double{world.rest_density()});
@@ -298,7 +302,8 @@ void density_solve(World& world) {
   count_sweep(world);
   with_images(world.cells, [&](auto images) {
     parallel_for(world.count, [&](std::size_t i) {
-      f.source[i] = f.density[i] + dt * density_rate(world, f.velocity, i, images, boundary);
+      const float rate = density_rate(world, f.velocity, i, images, boundary) - body_rate(world, i);
+      f.source[i] = f.density[i] + dt * rate;
     });
   });
   const auto reference = static_cast<float>(reference_density(world));

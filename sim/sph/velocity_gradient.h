@@ -1,6 +1,6 @@
 // Derivatives of the velocity at one particle, in the difference form (Liu et al. 2020, Eq. 3, 6). Walls count as the
-// fluid's reflections in them; in the curl no-slip bodies count as samples that stand still, in the gradient, which is
-// corrected for missing neighbours instead, bodies do not.
+// fluid's reflections in them; in the curl no-slip bodies count as samples with the body's velocity, in the gradient,
+// which is corrected for missing neighbours instead, bodies do not.
 #pragma once
 
 #include "sim/sph/pair_sums.h"
@@ -49,6 +49,12 @@ inline void for_neighbour_velocities(const World& world, std::size_t i, const Im
   });
 }
 
+// What no-slip bodies add to rho curl v.
+inline Vec3 no_slip_curl(const Fields& f, std::size_t i, Vec3 v) {
+  const Vec3 at_rest = cross(v, f.no_slip_gradient[i]);
+  return f.body_motion.empty() ? at_rest : at_rest - f.body_motion[i];
+}
+
 // curl v (1/s).
 template <class Images>
 Vec3 velocity_curl(const World& world, std::size_t i, const Images& images) {
@@ -58,7 +64,7 @@ Vec3 velocity_curl(const World& world, std::size_t i, const Images& images) {
   for_neighbour_velocities(world, i, images,
                            [&](f8 slope, const Vec8& other, const Pairs& p) { curl.add_curl(slope, v, other, p); });
   Vec3 total = world.mass * curl.total();
-  if (!f.no_slip_gradient.empty()) total += cross(v, f.no_slip_gradient[i]);
+  if (!f.no_slip_gradient.empty()) total += no_slip_curl(f, i, v);
   return 1 / f.density[i] * total;
 }
 

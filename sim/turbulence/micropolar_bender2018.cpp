@@ -93,7 +93,7 @@ void couple(World& world) {
                                                                         : 1.0f);
       Vec3 flow = of_v * curl_v.total(), spin = of_omega * curl_omega.total();
       if (bodies) {
-        flow += 1 / density * cross(v, f.no_slip_gradient[i]);
+        flow += 1 / density * no_slip_curl(f, i, v);
         spin += 1 / density * cross(omega, f.no_slip_gradient[i]);
       }
       push(f, i, step.transfer * spin);
