@@ -19,6 +19,7 @@ namespace curlew {
 struct Keyframe {
   double time = 0;  // s
   Vec3d at;         // m, from where the shape stands in the scene file
+  bool operator==(const Keyframe&) const = default;
 };
 
 // Where a body is at one moment, and how fast.

@@ -20,6 +20,12 @@ double volume_share(const Kernel& kernel, double d) {
   return half_lattice / kernel.lattice_sum(d) / (volume * (kernel.layer_sum(d, d) + kernel.layer_sum(d, 2 * d)));
 }
 
+// Whether two bodies never move against each other.
+bool alike(const Body& one, const Body& other) {
+  if (!one.motion.moves() || !other.motion.moves()) return one.motion.moves() == other.motion.moves();
+  return one.motion.keyframes() == other.motion.keyframes();
+}
+
 }  // namespace
 
 void BodySamples::Extent::include(std::array<int, 3> cell) {
@@ -39,17 +45,20 @@ bool BodySamples::Extent::holds(const CellShape& shape, std::array<int, 3> cell)
 BodySamples::BodySamples(const Scene& scene, const CellShape& shape, const Kernel& kernel) {
   std::vector<Origin> all;
   std::vector<Vec3> unsorted;
-  std::vector<std::uint32_t> group;  // bodies at rest are one, each that moves is its own
+  std::vector<std::uint32_t> group;  // the first body that moves alike, or rests alike
   std::vector<bool> moving;
   for (const Body& body : scene.bodies) {
     const auto number = static_cast<std::uint32_t>(moving.size());
     const bool moves = body.motion.moves();
     const Vec3d first = moves ? body.motion.keyframes().front().at : Vec3d{};
     moving.push_back(moves);
+    const auto same = static_cast<std::uint32_t>(
+        std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) { return alike(body, other); }) -
+        scene.bodies.begin());
     for (Vec3d point : sample_body(body.shape, scene.spacing(), scene.dimension, domain_around(body, scene.domain))) {
       all.push_back({point, number, 0, body.kind == WallKind::no_slip ? 1.0f : 0.0f});
       unsorted.push_back(to_float(point + first));
-      group.push_back(moves ? number + 1 : 0);
+      group.push_back(same);
     }
   }
   sort(shape, unsorted);

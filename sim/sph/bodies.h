@@ -4,7 +4,7 @@
 // an impact drives water within a spacing of it.
 //
 // The samples of a body that moves go along with it, in one grid with all others, which is sorted anew each step; their
-// volumes stay, and are found without the samples of other bodies.
+// volumes stay, and are found without the samples of bodies that move otherwise.
 #pragma once
 
 #include <span>
