@@ -170,10 +170,10 @@
        "A particle that would move farther than this in one step, in spacings, has diverged: the run stops.")         \
   REAL(max_speed, 20.0, 2.0, 100.0, 1.0, 1e6, "1", "", live,                                                          \
        "A particle faster than this many times what the scene can bring forth (speed at the start, of moving walls, " \
-       "of a fall through the domain) has diverged: the run stops.")                                                  \
+       "of moving bodies, of a fall through the domain) has diverged: the run stops.")                                \
   REAL(max_energy, 2.0, 1.1, 10.0, 1.0, 1e6, "1", "", live,                                                           \
        "Water with more than this many times the mechanical energy of the start has diverged: the run stops. Not "    \
-       "where walls move, a torque acts, or turbulence models run without energy.guard.")
+       "where walls or bodies move, a torque acts, or turbulence models run without energy.guard.")
 
 #define CURLEW_SURFACE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                      \
   REAL(cell, 1.0, 0.5, 2.0, 0.5, 2.0, "r", "", live,                                                              \

@@ -379,6 +379,7 @@ void prepare(World& world, const Plan& plan) {
 void step(World& world, const Plan& plan, PassObserver* observer) {
   const double last_dt = world.dt;
   world.report.limit_hits = 0;
+  world.report.body_work = 0;
   save_backup(world);
   try {
     run_passes(world, plan.step, observer);

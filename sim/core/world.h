@@ -30,6 +30,7 @@ struct StepReport {
   double max_speed = 0;            // m/s
   double max_acceleration = 0;     // m/s^2
   std::int64_t wall_contacts = 0;  // particles held at a wall or a body
+  double body_work = 0;            // J, that moving bodies do on the fluid by its pressure
   double guard_scale = 1;          // share of the turbulence models' work that the energy guard let through
 };
 

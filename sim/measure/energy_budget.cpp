@@ -29,7 +29,7 @@ constexpr Name names[] = {
     {"reflect", "loss_reflect", false, false},
     {"outflow", "loss_outflow", false, false},
 };
-constexpr std::string_view rotation = "work_spin";
+constexpr std::string_view rotation = "work_spin", bodies = "work_bodies";
 
 const Name* name_of(const Pass& pass) {
   for (const Name& name : names) {
@@ -47,6 +47,10 @@ EnergyBudget::EnergyBudget(const Plan& plan) {
       spin_ = terms_.size();
       terms_.push_back({rotation, pass, true});
     }
+    if (pass->name == "body_course") {
+      bodies_ = terms_.size();
+      terms_.push_back({bodies, pass, true});
+    }
   }
   forces_.resize(terms_.size());
 }
@@ -54,6 +58,7 @@ EnergyBudget::EnergyBudget(const Plan& plan) {
 void EnergyBudget::begin_step(const World& world) {
   kinetic_ = kinetic_energy(world);
   rotational_ = rotational_energy(world);
+  body_work_ = 0;
   for (Term& term : terms_) term.step = 0;
 }
 
@@ -88,6 +93,12 @@ void EnergyBudget::after(const Pass& pass, const World& world) {
     const double now = kinetic_energy(world);
     term.step = term.is_work ? now - kinetic_ : kinetic_ - now;
     kinetic_ = now;
+  }
+  if (bodies_ < terms_.size() && !term.is_work) {
+    const double done = world.report.body_work - body_work_;
+    term.step += done;
+    terms_[bodies_].step += done;
+    body_work_ += done;
   }
   if (pass.writes.has(FieldId::microrotation) && spin_ < terms_.size()) {
     const double now = rotational_energy(world);

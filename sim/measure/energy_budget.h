@@ -12,6 +12,9 @@ namespace curlew {
 // Ask it after each pass, and it splits the change of the kinetic energy between the causes, exactly: a pass that
 // changes velocities has what it took; a force k, which works only when all forces a are applied together, has
 // dt sum m a_k . (v + dt a / 2). Losses count what was taken, works what was given.
+// What moving bodies do by pressure, force times their velocity, is their work and no gain of the solves. What no-slip
+// ones do by friction stays in the loss by viscosity, and what they do to particles that are put on their surface in
+// the loss by advection.
 class EnergyBudget {
  public:
   struct Term {
@@ -33,7 +36,10 @@ class EnergyBudget {
   Term* term_of(const Pass& pass);
 
   std::vector<Term> terms_;
-  std::size_t spin_ = ~std::size_t{0};  // the term of what the models give to the rotation
+  static constexpr std::size_t no_term = ~std::size_t{0};
+  std::size_t spin_ = no_term;    // the term of what the models give to the rotation
+  std::size_t bodies_ = no_term;  // and of what moving bodies do
+  double body_work_ = 0;          // J, in this step so far
   double kinetic_ = 0, rotational_ = 0;
   Array<Vec3> before_;               // acceleration before the force in hand
   std::vector<Array<Vec3>> forces_;  // acceleration by each term, where it is a force

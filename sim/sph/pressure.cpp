@@ -243,6 +243,15 @@ void find_seen_shares(World& world) {
   });
 }
 
+// The work of moving bodies, J, where k acts so many times in the step: sum over samples b of F_b . v_b dt with
+// F_b = -sum m k_i rho_0 V_b grad W_ib on the fluid.
+void count_body_work(World& world, const Array<float>& k, double times) {
+  if (world.fields.body_motion.empty()) return;
+  world.report.body_work -= times * world.dt * double{world.mass} * particle_sum(world.count, [&](std::size_t i) {
+                              return double{k[i]} * body_rate(world, i);
+                            });
+}
+
 }  // namespace
 
 void divergence_solve(World& world) {
@@ -272,6 +281,7 @@ void divergence_solve(World& world) {
                            : solve_pressure(world, {f.divergence_stiffness, p.divergence_tolerance,
                                                     p.max_divergence_iterations, corrected});
   accelerate_particles(world);
+  count_body_work(world, f.divergence_stiffness, f.pressure_acceleration.empty() ? 1 : 1 + p.reflection);
   if (!f.pressure_acceleration.empty()) {
     parallel_for(world.count, [&](std::size_t i) { f.pressure_acceleration[i] = f.acceleration[i]; });
   }
@@ -315,6 +325,7 @@ void density_solve(World& world) {
     parallel_for(world.count, [&](std::size_t i) { f.displacement[i] = dt2 * f.acceleration[i]; });
   } else {
     accelerate_particles(world);
+    count_body_work(world, f.density_stiffness, 1);
   }
   world.report.pressure_iterations = outcome.iterations;
   world.report.density_error_avg = outcome.error;

@@ -124,7 +124,7 @@ void account_energy(World& world) {
   });
   const EnergyParameters& p = world.parameters().energy;
   EnergyAccount& account = world.energy;
-  const double loss = double{world.mass} * missing + account.outer_work + account.given;
+  const double loss = double{world.mass} * missing + account.outer_work + account.given + world.report.body_work;
   const double kept = account.reserve > 0 ? account.reserve * std::exp(-world.dt / p.memory) : account.reserve;
   account.reserve = kept + p.share * loss - account.given;
 }

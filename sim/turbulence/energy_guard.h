@@ -3,8 +3,8 @@
 // micropolar model, refinement with alpha above 1.2).
 //
 // The reserve is what the models may add. A step adds energy.share of the solver's loss to it,
-//   loss = E before + work of gravity, viscosity, external torque and models - E after,  E = sum m (v^2 + Theta w^2) /
-//   2,
+//   loss = E before + work of gravity, viscosity, external torque, moving bodies and models - E after,
+//   E = sum m (v^2 + Theta w^2) / 2,
 // and takes off what the models have added. What is left fades with energy.memory, so that old losses cannot be spent
 // in still water; a reserve below zero (a solve may add energy too) does not fade.
 #pragma once

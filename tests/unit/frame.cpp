@@ -140,3 +140,21 @@ TEST_CASE("clear water that is cut open has its surface, flat at the cut") {
   look.style = LookStyle::fast_water;
   CHECK(make_shown_frame(world, look, make_geometry(world.scene), maker).surface == nullptr);
 }
+
+TEST_CASE("a frame says where bodies are", "[frame]") {
+  Scene scene = splash();
+  scene.bodies.push_back({"still", Sphere{{0.2, 0.3, 0.15}, 0.05}, WallKind::slip});
+  CHECK(make_frame(make_world(scene), "none", make_geometry(scene)).body_offset.empty());
+  scene.bodies.push_back({"ball", Sphere{{0.2, 0.5, 0.15}, 0.05}, WallKind::slip});
+  scene.bodies.back().motion = KeyframePath({{0, {}}, {0.2, {0.1, 0, 0}}});
+  World world = make_world(scene);
+  const Plan plan = make_plan(world);
+  prepare(world, plan);
+  while (world.time < 0.1) step(world, plan);
+  const Frame frame = make_frame(world, "none", make_geometry(scene));
+  REQUIRE(frame.body_offset.size() == 2);
+  CHECK(frame.body_offset[0] == Vec3d{});
+  CHECK(frame.body_offset[1] == scene.bodies[1].motion.at(world.time).offset);
+  CHECK(frame.body_offset[1].x > 0.04);
+  CHECK(cut_open(frame, {}).body_offset == frame.body_offset);
+}

@@ -55,3 +55,32 @@ TEST_CASE("a face in the plane of a wall is no way out", "[obstacles]") {
     CHECK(v.x == Approx(0).margin(1e-3));
   }
 }
+
+TEST_CASE("a body that moves holds particles where it is, and pushes them", "[obstacles]") {
+  Scene scene = with_body(Sphere{{1, 0.5, 0.5}, 0.3});
+  scene.bodies[0].motion = KeyframePath({{0, {}}, {1, {-1.2, 0.5, 0}}});
+  const Obstacles ball(scene);
+  const std::vector<BodyPlace> places{{{-1.2, 0.5, 0}, {0, 2, 0}}};  // its centre lies in the domain's upper corner
+  Vec3 x{-0.2f, 1.29f, 0.5f}, v{1, 0.5f, 0};
+  CHECK_FALSE(ball.contains(x));
+  CHECK(ball.contains(x, places));
+  CHECK_FALSE(ball.contains({1, 0.79f, 0.5f}, places));
+  CHECK(ball.hold(x, v, x, places));
+  CHECK(x.y == Approx(1.3).margin(1e-4));
+  CHECK(v.x == Approx(1).margin(1e-3));
+  CHECK(v.y == Approx(2).margin(1e-3));  // as fast as the ball
+  Vec3 top{-0.2f, 1.29f, 0.5f}, faster{0, 3, 0};
+  CHECK(ball.hold(top, faster, top, places));
+  CHECK(faster.y == 3);
+}
+
+TEST_CASE("a body that moves off a wall has its end there", "[obstacles]") {
+  Scene scene = with_body(Box{{0.5, 0, 0}, {1, 0.5, 1}});
+  CHECK(Obstacles(scene).contains({0.51f, 0, 0.5f}));
+  scene.bodies[0].motion = KeyframePath({{0, {}}, {1, {0.5, 0, 0}}});  // along it
+  CHECK(Obstacles(scene).contains({0.51f, 0, 0.5f}));
+  scene.bodies[0].motion = KeyframePath({{0, {}}, {1, {0, 0.5, 0}}});
+  CHECK_FALSE(Obstacles(scene).contains({0.51f, 0, 0.5f}));
+  CHECK_FALSE(Obstacles(scene).contains({0.51f, 0.49f, 0.5f}, body_places(scene.bodies, 1)));
+  CHECK(Obstacles(scene).contains({0.51f, 0.51f, 0.5f}, body_places(scene.bodies, 1)));
+}

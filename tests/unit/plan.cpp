@@ -55,6 +55,26 @@ TEST_CASE("a plain scene plans the plain solver", "[plan]") {
   CHECK_FALSE(plan.fields.has(FieldId::boundary_friction));
 }
 
+TEST_CASE("only a body that moves brings the passes and the field of moving bodies", "[plan]") {
+  Scene scene = small_scene();
+  scene.bodies.push_back({"ball", Sphere{{0.5, 0.3, 0.3}, 0.08}, WallKind::slip});
+  const auto at_rest = make_plan(make_world(scene), {FieldId::vorticity});
+  scene.bodies[0].motion = KeyframePath({{0, {}}, {1, {}}});
+  CHECK(names(make_plan(make_world(scene), {FieldId::vorticity})) == names(at_rest));
+  CHECK_FALSE(at_rest.fields.has(FieldId::body_motion));
+  const Cost before = cost_of(scene);
+  scene.bodies[0].motion = KeyframePath();
+  CHECK(cost_of(scene) == before);
+  scene.bodies[0].motion = KeyframePath({{0, {}}, {1, {0, 0.1, 0}}});
+  const auto moving = make_plan(make_world(scene));
+  for (const char* name : {"body_course", "move_bodies", "body_motion"}) {
+    CAPTURE(name);
+    CHECK(planned(moving, name));
+    CHECK_FALSE(planned(at_rest, name));
+  }
+  CHECK(moving.fields.has(FieldId::body_motion));
+}
+
 TEST_CASE("switches bring their passes and fields, and only theirs", "[plan]") {
   Scene scene = small_scene();
   scene.parameters.viscosity.nu = 0.01;

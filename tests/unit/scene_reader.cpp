@@ -28,7 +28,9 @@ const std::string full_scene = R"json({
   "bodies": [
     {"name": "rock", "mesh": {"file": "../meshes/rock.obj", "scale": 0.2, "translation": [1.5, 0, 1], "rotation": [0, 30, 0]}, "wall": "no-slip"},
     {"plane": {"point": [0, -0.5, 0], "normal": [0.1, 1, 0]}},
-    {"name": "hill", "heightfield": {"formula": "0.1*x", "min": [2, -1, 0], "max": [4, 0, 2]}}
+    {"name": "hill", "heightfield": {"formula": "0.1*x", "min": [2, -1, 0], "max": [4, 0, 2]}},
+    {"name": "ball", "sphere": {"centre": [1, 1, 1], "radius": 0.1},
+     "motion": [{"time": -1, "at": [0, 0.1, 0]}, {"time": 0.5, "at": [1, 0, 0.25]}, {"time": 2.5, "at": [2, -1, 0.5]}]}
   ],
   "probes": [
     {"name": "p 1", "pressure": {"at": [0, -1, 2]}},
@@ -74,11 +76,15 @@ TEST_CASE("every key arrives in the scene", "[scene]") {
   CHECK(scene.fluid[5].velocity.centre == Vec3d{3, 0, 1});
   CHECK(scene.fluid[5].velocity.radius == 0.1);
   CHECK(scene.fluid[5].velocity.circulation == -2);
-  REQUIRE(scene.bodies.size() == 3);
+  REQUIRE(scene.bodies.size() == 4);
   CHECK(scene.bodies[0].kind == WallKind::no_slip);
   CHECK(std::get<Mesh>(scene.bodies[0].shape).mesh->triangles.size() == 320);
   CHECK(scene.bodies[1].name == "body 2");
   CHECK(std::get<Heightfield>(scene.bodies[2].shape).heights.size() == 257 * 257);
+  CHECK_FALSE(scene.bodies[2].motion.moves());
+  REQUIRE(scene.bodies[3].motion.keyframes().size() == 3);
+  CHECK(scene.bodies[3].motion.keyframes()[0] == Keyframe{-1, {0, 0.1, 0}});
+  CHECK(scene.bodies[3].motion.keyframes()[2] == Keyframe{2.5, {2, -1, 0.5}});
   REQUIRE(scene.probes.size() == 4);
   CHECK(scene.probes[0].name == "p 1");
   CHECK(scene.probes[0].quantity == Probe::Quantity::pressure);
@@ -147,6 +153,7 @@ TEST_CASE("the written scene reads back the same from any folder", "[scene]") {
   const auto& mesh = *std::get<Mesh>(scene.bodies[0].shape).mesh;
   const auto& mesh_again = *std::get<Mesh>(again.bodies[0].shape).mesh;
   CHECK(mesh.vertices == mesh_again.vertices);
+  CHECK(again.bodies[3].motion.keyframes() == scene.bodies[3].motion.keyframes());
   REQUIRE(again.probes.size() == scene.probes.size());
   for (std::size_t k = 0; k < scene.probes.size(); ++k) {
     const Probe &was = scene.probes[k], &is = again.probes[k];
