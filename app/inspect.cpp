@@ -162,6 +162,13 @@ int check_command(const RunOptions& options) {
   std::printf("  %zu fluid particles, %zu bodies with %zu samples, %.1f neighbours a particle\n", world.count,
               scene.bodies.size(), world.bodies.count(),
               static_cast<double>(world.neighbours.pairs()) / static_cast<double>(world.count));
+  for (const Body& body : scene.bodies) {
+    if (!body.motion.moves()) continue;
+    const std::vector<Keyframe>& keyframes = body.motion.keyframes();
+    std::printf("  %s moves from %s s to %s s, at most at %.3g m/s\n", body.name.c_str(),
+                number_text(keyframes.front().time).c_str(), number_text(keyframes.back().time).c_str(),
+                body.motion.top_speed());
+  }
   std::printf("  %s for the solver, %.0f bytes a particle\n",
               bytes_text(static_cast<double>(allocated_bytes(world))).c_str(),
               static_cast<double>(allocated_bytes(world)) / static_cast<double>(world.count));
