@@ -79,6 +79,23 @@ TEST_CASE("each part of the look changes the picture, and every pixel is opaque"
   }
 }
 
+TEST_CASE("a body is drawn where the frame has it") {
+  const OffscreenContext context;
+  Frame frame = slope_of_water(), elsewhere = frame;
+  frame.geometry = with_pillar(frame);
+  auto moved = std::make_shared<FrameGeometry>(*frame.geometry);
+  for (Vec3d& corner : moved->bodies[0].surface.vertices) corner += Vec3d{0.25, -0.125, 0};
+  elsewhere.geometry = moved;
+  Renderer renderer(640, 400), fresh(640, 400);
+  const Image start = renderer.draw(frame, {});
+  frame.body_offset = {{0.25, -0.125, 0}};
+  const Image there = renderer.draw(frame, {});
+  CHECK(differing_pixels(start, there, 8) > 500);
+  CHECK(there.rgba == fresh.draw(elsewhere, {}).rgba);
+  frame.body_offset = {{}};
+  CHECK(renderer.draw(frame, {}).rgba == start.rgba);
+}
+
 TEST_CASE("the legend shows the map's own colours") {
   const OffscreenContext context;
   Renderer renderer(1280, 720);

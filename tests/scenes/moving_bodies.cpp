@@ -250,6 +250,7 @@ TEST_CASE("a run with a moving body goes on with the same bits", "[scene]") {
   first.take_steps(25);
   const World& left = first.world;
   World resumed = make_empty_world(parse_scene(scene_json(left.scene), "elsewhere.json"), left.seed);
+  REQUIRE(resumed.body_places.size() == 2);
   resumed.count = left.count;
   resumed.step = left.step;
   resumed.time = left.time;

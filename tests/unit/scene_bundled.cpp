@@ -38,6 +38,8 @@ TEST_CASE("every bundled scene reads, says what it is, and holds particles", "[s
   CHECK(count("dam_break_2d") == 60 * 60);
   CHECK(count("pillars") > 35000);
   CHECK(count("pillars") < 45000);
+  CHECK(count("ball") > 22000);
+  CHECK(count("ball") < 24000);
 }
 
 TEST_CASE("scenes are found by name and by path", "[scene]") {
