@@ -68,7 +68,7 @@ SolidLayer::SolidLayer()
 void SolidLayer::upload(const std::shared_ptr<const FrameGeometry>& geometry, std::span<const Vec3d> offsets) {
   const bool same_place = std::equal(offsets.begin(), offsets.end(), offsets_.begin(), offsets_.end());
   if (geometry == geometry_ && same_place) return;
-  if (geometry != geometry_) {
+  if (geometry != geometry_ || unmoved_.size() != count_) {  // or given back below
     unmoved_.clear();
     ends_.clear();
     for (const FrameBody& body : geometry->bodies) {

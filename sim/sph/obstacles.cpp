@@ -11,16 +11,15 @@ namespace {
 // that wall.
 struct Extension {
   const Domain& domain;
-  Vec3d range;  // m, of the body's motion
   int dimension;
   double by, slack;  // m
 
   // How far to go on below (or above) along an axis where the shape ends at `low` (or `high`).
   double below(double low, int axis) const {
-    return axis < dimension && range[axis] == 0 && std::abs(low - domain.min[axis]) < slack ? by : 0;
+    return axis < dimension && std::abs(low - domain.min[axis]) < slack ? by : 0;
   }
   double above(double high, int axis) const {
-    return axis < dimension && range[axis] == 0 && std::abs(high - domain.max[axis]) < slack ? by : 0;
+    return axis < dimension && std::abs(high - domain.max[axis]) < slack ? by : 0;
   }
 
   void operator()(Box& box) const {
@@ -91,8 +90,7 @@ Obstacles::Obstacles(const Scene& scene) : dimension_(scene.dimension), spacing_
   for (const Body& body : scene.bodies) {
     shapes_.push_back(body.shape);
     domains.push_back(domain_around(body, scene.domain));
-    const Vec3d range = body.motion.most() - body.motion.least();
-    std::visit(Extension{domains.back(), range, dimension_, 4 * spacing_, 1e-3 * spacing_}, shapes_.back());
+    std::visit(Extension{domains.back(), dimension_, 4 * spacing_, 1e-3 * spacing_}, shapes_.back());
   }
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     obstacles_.push_back({bounds(shapes_[k], dimension_, domains[k]), ShapeProbe(shapes_[k], dimension_)});
