@@ -24,6 +24,7 @@ int bench_speed(const BenchOptions& options);
 int bench_memory(const BenchOptions& options);
 int bench_energy(const BenchOptions& options);
 int bench_overhead(const BenchOptions& options);
+int bench_turbulence(const BenchOptions& options);
 int bench_stability(const BenchOptions& options);
 int bench_surface(const BenchOptions& options);
 int bench_render(const BenchOptions& options);

@@ -24,11 +24,13 @@ constexpr int timed_steps = 10;
 
 // The passes of a model and of the guard over it; vorticity counts where only confinement asks for it, as here.
 constexpr const char* model_passes[] = {
-    "vorticity_refinement", "vorticity_prediction", "micropolar", "vorticity_confinement", "vorticity",
-    "energy_guard",         "energy_account"};
+    "vorticity_refinement", "vorticity_prediction", "micropolar",    "vorticity_confinement", "vorticity",
+    "wavelet_energy",       "wavelet_turbulence",   "wavelet_drift", "energy_guard",          "energy_account"};
 
 // What a model may cost, in sweeps.
-double sweep_limit(const Method& m) { return (m.alpha > 0 ? 5 : 0) + (m.nu_t > 0 ? 2 : 0) + (m.epsilon > 0 ? 2 : 0); }
+double sweep_limit(const Method& m) {
+  return (m.alpha > 0 ? 5 : 0) + (m.nu_t > 0 ? 2 : 0) + (m.epsilon > 0 ? 2 : 0) + (m.wavelet > 0 ? 3 : 0);
+}
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

@@ -239,7 +239,7 @@ void add_bench_options(CLI::App& app, BenchOptions& o) {
   const auto name = [&o, names](const std::string& t) { o.name = parse_word("the benchmark", t, names); };
   app.add_option_function<std::string>("NAME", name, help)->required();
   app.add_option("--cases", o.cases,
-                 "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; turbulence too, across: 48; "
+                 "Particle numbers (24k 97k; energy takes one: 30k; overhead too: 97k; turbulence too, across: 40; "
                  "stability too: 2k "
                  "in 2D, 5k in 3D; "
                  "accuracy: as its scenes have)");

@@ -20,7 +20,8 @@ struct Part {
 constexpr Part parts[] = {{"vr", "VR ", "", "vorticity_refinement.alpha", &Method::alpha},
                           {"sum", "VR ", " sum", "vorticity_refinement.alpha", &Method::alpha},
                           {"mp", "MP ", "", "micropolar.nu_t", &Method::nu_t},
-                          {"vc", "VC ", "", "vorticity_confinement.epsilon", &Method::epsilon}};
+                          {"vc", "VC ", "", "vorticity_confinement.epsilon", &Method::epsilon},
+                          {"wt", "WT ", "", "wavelet.amplitude", &Method::wavelet}};
 
 bool has(const Method& method, const Part& part) {
   const bool is_sum = part.word == std::string("sum");
@@ -29,7 +30,7 @@ bool has(const Method& method, const Part& part) {
 
 [[noreturn]] void refuse(const std::string& text) {
   throw InputError("--methods is " + in_quotes(text) +
-                   ", expected dfsph, vr1.0, sum1.0, mp0.05, vc0.1 with any strength, or a sum such as "
+                   ", expected dfsph, vr1.0, sum1.0, mp0.05, vc0.1, wt0.02 with any strength, or a sum such as "
                    "vr1.0+mp0.05");
 }
 
@@ -98,6 +99,7 @@ void apply_method(Parameters& parameters, const Method& method) {
   parameters.vorticity_refinement.alpha = method.alpha;
   parameters.micropolar.nu_t = method.nu_t;
   parameters.vorticity_confinement.epsilon = method.epsilon;
+  parameters.wavelet.amplitude = method.wavelet;
   if (method.sum) {
     parameters.vorticity_refinement.reconstruction = VorticityRefinementParameters::reconstruction_t::sum;
   }

@@ -1,6 +1,6 @@
 // Turbulence methods as the benches name them on the command line: "dfsph" (none), "vr1.0" (vorticity refinement with
 // alpha 1), "sum1.0" (the same by the sum of the paper), "mp0.05" (micropolar, nu_t 0.05), "vc0.1" (vorticity
-// confinement, epsilon 0.1), and sums such as "vr1.0+mp0.05".
+// confinement, epsilon 0.1), "wt0.02" (wavelet turbulence, amplitude 0.02), and sums such as "vr1.0+mp0.05".
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace curlew {
 
 struct Method {
-  double alpha = 0, nu_t = 0, epsilon = 0;
+  double alpha = 0, nu_t = 0, epsilon = 0, wavelet = 0;
   bool sum = false;  // else the reconstruction stays as it is
 
   bool operator==(const Method&) const = default;

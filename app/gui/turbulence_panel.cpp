@@ -38,7 +38,6 @@ std::span<const std::string_view> turbulence_keys() {
                                               "micropolar.eta",
                                               "vorticity_confinement.epsilon",
                                               "wavelet.amplitude",
-                                              "sub_particles.levels",
                                               "energy.guard"};
   return keys;
 }

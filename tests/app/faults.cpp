@@ -292,7 +292,7 @@ TEST_CASE("a run that goes on from an earlier checkpoint leaves none of a later 
   run("dam_break --particles 300 --out whole" + options + "60");
   fs::copy(folder / "whole", folder / "part", fs::copy_options::recursive);
   put_file(folder / "part/checkpoints/mine.curlew", "kept");
-  run("--resume part/checkpoints/000011.curlew" + options + "15");  // as if it had been killed there
+  run("--resume part/checkpoints/000010.curlew" + options + "15");  // as if it had been killed there
   CHECK(fs::remove(folder / "part/checkpoints/mine.curlew"));
   run("--resume " + last_checkpoint(folder / "part") + options + "60");
   check_same_files(folder / "part", folder / "whole");

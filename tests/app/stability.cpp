@@ -94,7 +94,7 @@ TEST_CASE("lines and planes have names of their own and ascending values") {
     CHECK(std::is_sorted(map.ys.begin(), map.ys.end()));
     CHECK(map.is_line() == (map.ys.size() == 1));
   }
-  CHECK(names.size() == 11);
+  CHECK(names.size() == 12);
 }
 
 TEST_CASE("a heat map is well-formed, escapes its texts and marks what it should") {
@@ -168,7 +168,7 @@ TEST_CASE("the stability bench leaves its cells, a summary and maps, and runs on
   const Outcome damaged = in(folder, small + "alpha");
   CHECK(damaged.code == 2);
   CHECK(damaged.err ==
-        "curlew: s/cells.csv: line 25 has 2 cells, expected 24; remove the line, or the file, to run it again\n");
+        "curlew: s/cells.csv: line 25 has 2 cells, expected 25; remove the line, or the file, to run it again\n");
   CHECK(in(folder, small + "alpha --set sph.h_over_d=1.1").code == 2);
 }
 
@@ -199,7 +199,7 @@ TEST_CASE("the stability bench refuses what it cannot do in one sentence") {
   const TemporaryFolder folder;
   const std::pair<const char*, const char*> cases[] = {
       {"bench stability speed",
-       "the line or plane is \"speed\", expected one of alpha, nu_t, eta, epsilon, step, viscosity, viscosity_factor, "
+       "the line or plane is \"speed\", expected one of alpha, nu_t, eta, epsilon, amplitude, step, viscosity, viscosity_factor, "
        "resolution, alpha_x_nu_t, nu_t_x_eta, alpha_x_step"},
       {"bench stability --scenes hemisphere", "--scenes is \"hemisphere\", expected dam_break_2d or dam_break"},
       {"bench stability --set time.cfl=0.2", "--set gives time.cfl, which this benchmark varies itself; leave it out"},
