@@ -71,6 +71,7 @@ const std::vector<StabilityMap>& stability_maps() {
       line("viscosity_factor", {1, 1.5, 2, 3, 4, 6, 8}, {.viscosity = 16}, "ν 16 times what makes its limit bind"),
       line("resolution", {0.5, 1, 2}, {.alpha = 1.3, .nu_t = 0.2}, "α = 1.3, ν_t = 0.2 m²/s"),
       plane("alpha", {0, 0.5, 1, 1.3, 2, 3}, "nu_t", {0, 0.05, 0.1, 0.2, 0.4, 1}),
+      plane("alpha", {0, 0.5, 1, 1.3, 2, 3}, "amplitude", {0, 0.005, 0.01, 0.02, 0.05, 0.1}),
       plane("nu_t", {0, 0.05, 0.1, 0.2, 0.4, 1}, "eta", {0, 0.0625, 0.125, 0.25, 0.5, 1}),
       plane("alpha", {0, 0.5, 1, 1.3, 2, 3}, "step", {1, 1.5, 2, 2.5, 3, 4})};
   return maps;

@@ -22,7 +22,7 @@
 #define CURLEW_PRESSURE_PARAMETERS(REAL, COUNT, FLAG, CHOICE)                                                         \
   REAL(density_tolerance, 1e-4, 1e-5, 1e-2, 1e-7, 1.0, "1", "eta_rho", live,                                          \
        "Mean compression at which the density solve stops, as a fraction (Bender & Koschier 2017, section 3.3; "      \
-       "0.01 % in Bender et al. 2018, section 7).")                                                                   \
+       "0.01 % in Bender et al. 2018, section 7); in steps so short that gravity compresses by less, some of that.")  \
   REAL(divergence_tolerance, 1e-3, 1e-4, 1e-1, 1e-7, 1.0, "1", "eta_div", live,                                       \
        "Mean compression rate at which the divergence solve stops, as density change in one step (Bender et al. "     \
        "2018, section 7: 0.1 %).")                                                                                    \
@@ -116,10 +116,9 @@
       "paper.",                                                                                                        \
       rate, step)                                                                                                      \
   REAL(reference_step, 1e-3, 1e-4, 1e-2, 1e-6, 1.0, "s", "tau", live, "Time of the rate form.")                        \
-  REAL(                                                                                                                \
-      scale, 0.5, 0.3, 0.6, 0.2, 1.0, "d", "s", live,                                                                  \
-      "Scale of the wavelet (Eq. 6) that finds the turbulence, in spacings; its neighbours end at sph.h_over_d times " \
-      "two.")                                                                                                          \
+  REAL(scale, 0.5, 0.3, 0.6, 0.2, 0.6, "d", "s", live,                                                                 \
+       "Scale of the wavelet (Eq. 6) that finds the turbulence, in spacings; beyond 0.6 it would reach past the "      \
+       "neighbours, which end at twice sph.h_over_d.")                                                                 \
   COUNT(octaves, 2, 1, 4, 1, 8, "1", "", live,                                                                         \
         "Bands of the turbulence that is put in (Eq. 8): the finest has cells of one spacing, each other twice the "   \
         "size of the one before.")                                                                                     \

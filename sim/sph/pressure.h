@@ -24,7 +24,7 @@ void divergence_solve(World& world);
 // The mean compression in a step at the velocity as it is, as the divergence solve counts it.
 double divergence_error(const World& world);
 
-// Predicted density error to at most pressure.density_tolerance.
+// Predicted density error to at most pressure.density_tolerance; in short steps to less, over several steps.
 void density_solve(World& world);
 
 // Fills the field pressure (Pa) from the sum of both solves, so that its gradient is the force that was felt.

@@ -199,8 +199,8 @@ TEST_CASE("the stability bench refuses what it cannot do in one sentence") {
   const TemporaryFolder folder;
   const std::pair<const char*, const char*> cases[] = {
       {"bench stability speed",
-       "the line or plane is \"speed\", expected one of alpha, nu_t, eta, epsilon, amplitude, step, viscosity, viscosity_factor, "
-       "resolution, alpha_x_nu_t, nu_t_x_eta, alpha_x_step"},
+       "the line or plane is \"speed\", expected one of alpha, nu_t, eta, epsilon, amplitude, step, viscosity, "
+       "viscosity_factor, resolution, alpha_x_nu_t, alpha_x_amplitude, nu_t_x_eta, alpha_x_step"},
       {"bench stability --scenes hemisphere", "--scenes is \"hemisphere\", expected dam_break_2d or dam_break"},
       {"bench stability --set time.cfl=0.2", "--set gives time.cfl, which this benchmark varies itself; leave it out"},
       {"bench stability --nu 0.05", "curlew bench stability takes no --nu; see `curlew bench --help`"},

@@ -11,6 +11,7 @@
 #include "sim/measure/vortex.h"
 #include "sim/sph/velocity_gradient.h"
 #include "sim/turbulence/vorticity_refinement_liu2020.h"
+#include "sim/turbulence/wavelet_turbulence_fujisawa2011.h"
 #include "tests/scenes/scene_test.h"
 
 using namespace curlew;
@@ -254,6 +255,35 @@ TEST_CASE("confinement's work is epsilon times |omega| |v| over the flow", "[bud
     }
   }
   CHECK(account.sum("work_vorticity_confinement") == Approx(1e-5 * power).epsilon(0.03));
+}
+
+TEST_CASE("the work of wavelet turbulence is A e y . v over tau, summed over the water", "[budget]") {
+  Scene scene = empty_box({0.5, 0.5, 0.5}, 40);
+  scene.gravity = {};
+  scene.domain.periodic = {true, true, true};
+  scene.fluid = {with_shear_wave(Box{{0, 0, 0}, scene.domain.max}, 1)};
+  scene.parameters.wavelet.amplitude = 0.3;
+  scene.parameters.wavelet.threshold = 1e-6;
+  scene.parameters.wavelet.octaves = 3;
+  scene.parameters.wavelet.renewal = 0;  // the noise stays
+  scene.parameters.pressure.two_sided = true;
+  scene.parameters.time.fixed_step = 1e-5;
+  Account account(make_world(scene));
+  const World& world = account.world;
+  const WaveletParameters& p = world.parameters().wavelet;
+  const TurbulenceField noise(*world.wavelet.noise, world.scene.spacing(), p.octaves, 0, 3);
+  double power = 0, most = 0;
+  for (std::size_t i = 0; i < world.count; ++i) {
+    const double energy = std::max(0.0, double{world.fields.wavelet_energy[i]} - p.threshold);
+    const Vec3d push = p.amplitude * energy / p.reference_step * to_double(noise.at(world.fields.position[i]));
+    const Vec3d velocity = to_double(world.fields.velocity[i]);
+    power += double{world.mass} * dot(push, velocity);
+    most += double{world.mass} * length(push) * length(velocity);
+  }
+  CAPTURE(power, most);
+  REQUIRE(std::abs(power) > 0.01 * most);
+  account.take_step();
+  CHECK(account.sum("work_wavelet_turbulence") == Approx(1e-5 * power).epsilon(0.01));
 }
 
 TEST_CASE("what XSPH takes from a shear wave is what the kernel's transform says", "[budget]") {
