@@ -282,6 +282,13 @@ TEST_CASE("assets/scene.schema.json is what `params --schema` prints") {
   CHECK(same);
 }
 
+TEST_CASE("the README's table of parameters is what `params --markdown` prints") {
+  const std::string readme = file_text(CURLEW_ASSETS_DIR "/../README.md");
+  const bool same = readme.find("\n" + curlew_program({"params", "--markdown"}).out) != std::string::npos;
+  INFO("README.md, \"Parameters\": put in what curlew params --markdown prints");
+  CHECK(same);
+}
+
 TEST_CASE("version, help and scenes answer on standard output") {
   const Outcome version = curlew_program({"--version"});
   CHECK(version.code == 0);
