@@ -24,6 +24,7 @@ std::string label_of(const ParameterRow& row) {
   if (row.key == "vorticity_confinement.epsilon") name = "confinement";
   if (row.key == "wavelet.amplitude") name = "wavelet turbulence";
   if (row.key == "sub_particles.levels") name = "sub-particles";
+  if (row.key == "sub_particles.critical_energy") name = "split above";
   for (char& c : name) c = c == '_' ? ' ' : c;
   std::string label = row.symbol.empty() ? name : written_symbol(row.symbol) + "  " + name;
   if (row.unit != "1" && !row.unit.empty()) label += " (" + written_unit(row.unit) + ")";

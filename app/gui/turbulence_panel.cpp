@@ -38,6 +38,7 @@ std::span<const std::string_view> turbulence_keys() {
                                               "micropolar.eta",
                                               "vorticity_confinement.epsilon",
                                               "wavelet.amplitude",
+                                              "sub_particles.levels",
                                               "energy.guard"};
   return keys;
 }

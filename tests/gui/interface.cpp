@@ -242,7 +242,7 @@ TEST_CASE("every panel is drawn, at both themes and sizes, and nothing lies on a
                          "Load",
                          "Save",
                          "viscosity.nu",
-                         "viscosity.form",
+                         "sub_particles.levels",
                          "label viscosity.nu",
                          "look",
                          "colour by",

@@ -192,6 +192,35 @@ TEST_CASE("colours of models that are off show 0 and say so, and live when the m
   }
 }
 
+TEST_CASE("the preset of wavelets stirs and splits a splash, and their colours live") {
+  const TemporaryFolder folder;
+  Desk desk(folder.path());
+  desk.open(CURLEW_ASSETS_DIR "/../tests/golden/splash.json");
+  const std::size_t particles = desk.interface().frame()->position.size();
+  choose(desk, "colour by", "sub_particle_level");
+  CHECK(all_zero(*desk.interface().frame()));
+  CHECK_NOTHROW(desk.interface().place("colour is off"));
+  choose(desk, "preset", "wavelets");
+  CHECK(desk.parameters.wavelet.amplitude > 0);
+  CHECK(desk.parameters.sub_particles.levels == 3);
+  for (int k = 0; k < 60; ++k) desk.click("step");
+  for (const char* field : {"sub_particle_level", "wavelet_energy"}) {
+    choose(desk, "colour by", field);
+    CHECK_FALSE(all_zero(*desk.interface().frame()));
+    CHECK_THROWS(desk.interface().place("colour is off"));
+    desk.keep(std::string("wavelets by ") + field);
+  }
+  CHECK(desk.interface().frame()->position.size() > particles);
+  desk.drag("wavelet.amplitude", 0.3f, 0.7f);
+  desk.settle();
+  CHECK(desk.parameters.wavelet.amplitude > 0.02);
+  desk.type("sub_particles.levels", "0");
+  desk.click("step");
+  desk.settle();
+  CHECK(desk.parameters.sub_particles.levels == 0);
+  CHECK(desk.interface().frame()->position.size() == particles);
+}
+
 TEST_CASE("energy of rotation has a curve once a model has spins") {
   const TemporaryFolder folder;
   Desk desk(folder.path());
