@@ -94,7 +94,7 @@ TEST_CASE("lines and planes have names of their own and ascending values") {
     CHECK(std::is_sorted(map.ys.begin(), map.ys.end()));
     CHECK(map.is_line() == (map.ys.size() == 1));
   }
-  CHECK(names.size() == 12);
+  CHECK(names.size() == 13);
 }
 
 TEST_CASE("a heat map is well-formed, escapes its texts and marks what it should") {
